@@ -1,14 +1,18 @@
 #!/usr/bin/python3
-"""Draws performance profiles of contact problems (bench --problem), at two precisions.
+"""Draws performance profiles of contact problems, at two precisions.
 
-    contact_profiles.py RESULTS_DIR [--out DIR]     contact_profiles.png and .csv
+    bench --problem=FOLDER --study=contact --out=RESULTS_DIR
+    contact_profiles.py RESULTS_DIR [--out DIR]     contact_profiles.png and .csv,
+                                                    contact_table.md
 
-Of a problem p and a solver s with time t_ps and error e_ps, both of one record,
+A precision has separate runs that stop there. Of a problem p and a solver s, whose run takes t_ps and leaves
+the error e_ps,
 
     c_ps = t_ps if e_ps <= precision, else infinite;   rho_s(tau) = |{p : c_ps <= tau min_s c_ps}| / P
 
 as in the comparison over FCLIB (Acary, Bremond & Huber 2018, doi:10.1007/978-3-319-75972-2_10). The
-error is Siconos' measure of the answer, by bench and not by the solver. Exit 2: no such records, or a
+error is Siconos' measure of the answer, by bench and not by the solver. The table has the runs to
+the higher precision. Exit 2: no such records, or a
 file that cannot be written.
 """
 import argparse
@@ -38,11 +42,13 @@ def solver_of(record: dict) -> str:
 
 
 def costs_of(records: list[dict], precision: float) -> pd.DataFrame:
-    """Problems x solvers, in the order of the records: seconds; infinite: not solved."""
+    """Problems x solvers, in the order of the records: seconds; infinite: not solved. Of the runs to
+    this precision."""
     table = pd.DataFrame(
         {"problem": record["mesh"], "solver": solver_of(record),
-         "cost": record["time_s"] if record.get("time_s") and record.get("siconos_error") is not None
-         and record["siconos_error"] <= precision else np.inf} for record in records)
+         "cost": record["time_s"] if record["knob_value"] == precision and record.get("time_s")
+         and record.get("siconos_error") is not None and record["siconos_error"] <= precision
+         else np.inf} for record in records)
     wide = table.pivot_table("cost", "problem", "solver", "min", sort=False).fillna(np.inf)
     return wide[list(dict.fromkeys(table.solver))]
 
@@ -61,6 +67,52 @@ def table_of(records: list[dict]) -> pd.DataFrame:
                         columns=["precision", "solver", "factor_of_best", "share_solved"])
 
 
+def shown(seconds: float) -> str:
+    for unit, size in (("s", 1.0), ("ms", 1e-3)):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds / 1e-6:.3g} µs"
+
+
+def cell_of(record: dict, precision: float) -> str:
+    """Its time, or how far it got."""
+    error = record.get("siconos_error")
+    if record.get("time_s") and error is not None and error <= precision:
+        return shown(record["time_s"])
+    status = record["status"].replace("_", " ")
+    return status if error is None else f"{status}, {error:.0e}"
+
+
+def worst_of(records: list[dict], precision: float) -> str:
+    """The largest natural map and the largest of Siconos' measure among those solved."""
+    solved = [record for record in records if record.get("time_s")
+              and record.get("siconos_error") is not None and record["siconos_error"] <= precision]
+    return ", ".join(f"{max(record[key] for record in solved):.0e}"
+                     for key in ("natural_map_residual", "siconos_error")) if solved else ""
+
+
+def markdown_of(records: list[dict]) -> str:
+    precision = min(PRECISIONS)
+    records = [record for record in records if record["knob_value"] == precision]
+    solvers = list(dict.fromkeys(map(solver_of, records)))
+    ours = {solver_of(record) for record in records if record["contact_solver"]}
+    costs = costs_of(records, precision)
+    lines = [["problem", "W", "rows", *solvers, "theirs / ours", "ours: map, measure",
+              "theirs: map, measure"]]
+    for problem in costs.index:
+        own = [record for record in records if record["mesh"] == problem]
+        by_solver = {solver_of(record): cell_of(record, precision) for record in own}
+        best = [min((costs.at[problem, s] for s in solvers if (s in ours) == of_ours), default=np.inf)
+                for of_ours in (False, True)]
+        ratio = f"{best[0] / best[1]:.2g}" if np.isfinite(best).all() else ""
+        lines.append([problem, own[0]["contact_matrix"], str(own[0]["n_c"]),
+                      *(by_solver.get(s, "") for s in solvers), ratio,
+                      *(worst_of([r for r in own if (solver_of(r) in ours) == of_ours], precision)
+                        for of_ours in (True, False))])
+    lines.insert(1, ["---"] * len(lines[0]))
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
 def draw(records: list[dict]) -> Figure:
     solvers = costs_of(records, PRECISIONS[0]).columns
     problems = {record["mesh"] for record in records}
@@ -71,7 +123,8 @@ def draw(records: list[dict]) -> Figure:
                    f"Profiles: {len(solvers)} contact solvers on {len(problems)} problems",
                    "The share of problems that a solver solves within a factor of the fastest "
                    "solver's time. Solved: Siconos' error of the answer is at most the precision, "
-                   "whatever the solver says of it.")
+                   "whatever the solver says of it. Each precision has its own runs, which stop there. "
+                   "Problems that a program does not take count as not solved.")
     for k, precision in enumerate(PRECISIONS):
         axes = panel_at(figure, LEFT, TOP + k * (PANEL + BETWEEN), PAGE_WIDTH - LEFT - 1.9, PANEL)
         draw_panel(axes, costs_of(records, precision), precision)
@@ -94,16 +147,20 @@ def draw_panel(axes: Axes, costs: pd.DataFrame, precision: float) -> None:
 
 def make(args: argparse.Namespace) -> None:
     source = args.results / "records.jsonl"
-    records = [record for record in read_lines(source) if is_without_body(record)]
+    records = [record for record in read_lines(source)
+               if is_without_body(record) and record.get("knob_value") in PRECISIONS
+               and record.get("status") != "skipped"]
     if not records:
-        raise RecordsError(f"{source}: no contact problems; expected records of bench --problem")
+        raise RecordsError(f"{source}: no runs to {' or '.join(map(str, PRECISIONS))} of contact "
+                           "problems; expected records of bench --problem=... --study=contact")
     table = table_of(records).to_csv(index=False)
     with matplotlib.rc_context(STYLE):
         out = args.out or args.results / "figures"
         out.mkdir(parents=True, exist_ok=True)
         replace_all(out,
                     {"contact_profiles.png": partial(write_small_png, draw(records), DPI),
-                     "contact_profiles.csv": text_writer(table)})
+                     "contact_profiles.csv": text_writer(table),
+                     "contact_table.md": text_writer(markdown_of(records))})
 
 
 def main() -> None:

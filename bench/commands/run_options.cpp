@@ -350,10 +350,13 @@ Options parse_options(int argc, const char* const* argv) {
   parse_command_line(app, own, argv);
 
   const auto given = [&](const char* option) { return app.get_option(option)->count() > 0; };
-  for (const char* of_bodies : {"--mesh", "--scene", "--figure", "--study", "--adapt", "--fields"})
+  for (const char* of_bodies : {"--mesh", "--scene", "--figure", "--adapt", "--fields"})
     if (!options.problems.empty() && given(of_bodies))
       throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
   read_study(options.check.empty() ? texts.study : "check", options);
+  if (!options.problems.empty() && given("--study") &&
+      options.study.points != Study::Points::contact)
+    throw UsageError("--study: not with --problem, which has no body (allowed: contact)");
   for (const auto& [name, value] : options.study.options) {
     try {
       if (given(name.c_str())) continue;

@@ -200,10 +200,12 @@ bool is_named_after_catalogue(const std::string& mesh) {
 void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
   std::fflush(stdout);
   const char* const then = std::getenv("AIRYBENCH_THEN");
-  bool any_body = false;  // figures are of bodies
-  for (std::size_t k = 0; k < result.names.size() && !any_body; ++k)
-    any_body = result.record(k).n_phi.has_value();
-  if (then != nullptr && *then != '\0' && any_body &&
+  bool any_figure = false;  // of bodies, and of the study of contact problems
+  for (std::size_t k = 0; k < result.names.size() && !any_figure; ++k) {
+    const Record record = result.record(k);
+    any_figure = record.n_phi.has_value() || !record.study.empty();
+  }
+  if (then != nullptr && *then != '\0' && any_figure &&
       std::system(fmt::format("{} {}", then, shell_word(out.string())).c_str()) != 0)
     std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
   fmt::print("{}", picture_line(result, out, has_fields));

@@ -116,10 +116,11 @@ void Judge::judge_method_error(const Method& method, const std::vector<JudgedSte
   const WorstMeasure worst = worst_measure(steps[at].seen());
   const auto other =
       std::ranges::find_if(steps, [](const JudgedStep& step) { return step.as_other.has_value(); });
-  if (!(worst.value <= options_.target_error)) {
-    give(Status::inaccurate, fmt::format("{}{} {:.2e} is above the target {:.0e}",
-                                         prefix_of(static_cast<std::int64_t>(at)), worst.name,
-                                         worst.value, options_.target_error));
+  const double target = method.target_error.value_or(options_.target_error);
+  if (!(worst.value <= target)) {
+    give(Status::inaccurate,
+         fmt::format("{}{} {:.2e} is above the target {:.0e}",
+                     prefix_of(static_cast<std::int64_t>(at)), worst.name, worst.value, target));
   } else if (other != steps.end()) {
     record.other_solution = true;
     give(Status::ok, fmt::format("{}another solution than the reference's, {:.1e} of its stress "

@@ -14,6 +14,7 @@ std::vector<TurnedMethod> points_of(const Method& method, bool has_no_body,
   using enum Study::Points;
   if (options.study.points == accuracy) return error_points(method);
   if (options.study.points == threads) return scaling_points(method, options.thread_counts);
+  if (options.study.points == contact && has_no_body) return precision_points(method);
   if (options.study.points == contact || (has_no_body && !options.contact))
     return contact_points(method);
   return {{method, {}}};
@@ -100,6 +101,7 @@ Record blank_record(const PosedProblem& problem, const Method& method, const Opt
   if (body != nullptr) take_over(extent_of(body->mesh), record);
   describe(method, record);
   take_over(options, record);
+  if (method.target_error) record.target_error = method.target_error;
   record.study = options.study.name;
   if (body != nullptr) {
     record.n_phi = sizes.n_phi;

@@ -128,6 +128,22 @@ std::vector<TurnedMethod> contact_points(const Method& method) {
   return points;
 }
 
+std::vector<TurnedMethod> precision_points(const Method& method) {
+  std::vector<TurnedMethod> points;
+  for (const double precision : {1e-4, 1e-8})
+    for (const TurnedMethod& by : contact_points(method)) {
+      points.push_back(turned(by.method, {"tolerance", precision, {}, by.knob.contact},
+                              [precision](RunControl& control) {
+                                control.target_error = precision;
+                                control.tolerance = precision / 10;
+                                control.contact.tolerance = precision / 10;
+                                control.contact.acceptable = precision / 10;
+                              }));
+      points.back().method.target_error = precision;
+    }
+  return points;
+}
+
 std::vector<TurnedMethod> scaling_points(const Method& method, const std::vector<int>& threads) {
   std::vector<TurnedMethod> points;
   for (const int count : threads) {

@@ -44,10 +44,11 @@ std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
 }
 
-constexpr std::array<Column, 17> table_columns = {{
+constexpr std::array<Column, 18> table_columns = {{
     {"case", nullptr, [](const Record& r) { return name_of(r).text(); }},
     {"n_phi", "n_phi", [](const Record& r) { return whole(r.n_phi); }},
     {"n_c", "siconos_error", [](const Record& r) { return whole(r.n_c); }},
+    {"W", "contact_matrix", [](const Record& r) { return r.contact_matrix; }},
     {"time", nullptr, [](const Record& r) { return show_seconds(r.time_s); }},
     {"±", nullptr,
      [](const Record& r) { return r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s); }},

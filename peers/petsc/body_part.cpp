@@ -134,12 +134,11 @@ HybridizedSystem system_of_slots(const Problem& problem) {
   HybridizedSystem system;
   number_unknowns(problem, {}, system.unknown);
   int slot = 0;
-  for (std::array<int, 4>& of_edge : system.unknown)
-    for (int& unknown : of_edge) {
-      if (unknown != prescribed_unknown) unknown = slot;
-      ++slot;
-    }
-  system.displacement = prescribed_displacements(problem);
+  for (int& unknown : system.unknown.entries()) {
+    if (unknown != prescribed_unknown) unknown = slot;
+    ++slot;
+  }
+  system.displacement = prescribed_displacements(problem, 1);
   system.b = Eigen::VectorXd::Zero(slot);
   return system;
 }

@@ -64,13 +64,15 @@ void RankRows::assemble_system() {
   const EdgeUnknowns& unknown = part_.system.unknown;
   ContactCompliance near_contact(problem);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(part_.system.b.size()), of_prescribed = b;
+  std::vector<int> slots;
+  ElementVector u0;
   each_by_itself([&] {
     auto at_contact = contact_triangles_.begin();
-    visit_stiffness<double>(problem, [&](int t, const HybridStiffness<double>& element) {
+    visit_stiffness<double>(problem, 1, [&](int t, const StiffnessOfTriangle<double>& element) {
       ElementMatrices::Matrix K = from_lower(element.lower);
       if (near_contact.asks_for(t)) near_contact.add(t, K);
-      const std::array<int, 12> slots = element_unknowns(problem, unknown, t);
-      const ElementVector u0 = element_displacement(problem, part_.system, {}, t);
+      element_unknowns(problem, unknown, t, slots);
+      element_displacement<double>(problem, part_.system, {}, t, u0);
       const ElementVector force = K * u0;
       prescribed_energy_ += u0.dot(force);
       for (int i = 0; i < 12; ++i) {

@@ -67,10 +67,11 @@ Eigen::VectorXd active_set_step(const contact::Problem& problem, const Eigen::Ve
                                 const Eigen::VectorXd& r) {
   if (problem.is_dense()) return active_set_step(problem.D, problem.points, F, r);
   const Eigen::VectorXd diagonal = D_diagonal(problem);
+  const double added = shift * diagonal.mean();
   return step_from(
       problem.points, diagonal, F, r, [&](const Eigen::VectorXd& x) { return D_times(problem, x); },
       [&](std::vector<Freedom> freedoms, const Eigen::VectorXd& rest) {
-        for (Freedom& freedom : freedoms) freedom.diagonal += shift * diagonal.mean();
+        for (Freedom& freedom : freedoms) freedom.diagonal += added;
         return solve_sparse_freedoms(problem, freedoms, rest);
       });
 }
@@ -145,7 +146,7 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     history.insert(history.end(), swept.history.begin(), swept.history.end());
     ContactResult result = swept;
     finish_by_active_set(problem, options, deadline, result);
-    if (!result.converged && problem.rows.size() > 0 && result.F_C.allFinite())
+    if (!result.converged && !problem.bodies && result.F_C.allFinite())
       finish_by_proximal_points(problem, options, deadline, result);
     steps += result.active_set_steps;
     if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)

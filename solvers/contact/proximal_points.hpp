@@ -13,7 +13,7 @@
 namespace airybench {
 
 // Goes on from a result and replaces it by a better one, if it finds one, until the natural map is
-// options.tolerance or has not been halved for long. Of a D by rows.
+// options.tolerance or has not been halved for long. D is dense or by rows.
 void finish_by_proximal_points(const contact::Problem& problem, const ContactOptions& options,
                                const Deadline& deadline, ContactResult& result);
 

@@ -41,8 +41,12 @@ Eigen::VectorXd solve_by_sparse_lu(const SparseRows& A, const Eigen::VectorXd& b
   const SparseRows& rows = A.isCompressed() ? A : compressed;
   std::array<double, UMFPACK_CONTROL> control{};
   umfpack_di_defaults(control.data());
-  control[UMFPACK_ORDERING] = UMFPACK_ORDERING_METIS;
   const auto n = static_cast<int>(rows.rows());
+  // Of contacts in the plane, with few entries in a row, AMD takes half the time of METIS, which
+  // follows where AMD fills much; of those in space METIS alone is faster.
+  constexpr int few = 15;
+  control[UMFPACK_ORDERING] =
+      rows.nonZeros() < few * rows.rows() ? UMFPACK_ORDERING_CHOLMOD : UMFPACK_ORDERING_METIS;
   // UMFPACK takes columns: rows are those of the transpose.
   const int *start = rows.outerIndexPtr(), *column = rows.innerIndexPtr();
   Symbolic symbolic;

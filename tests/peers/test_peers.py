@@ -30,8 +30,9 @@ SCENES = {
 }
 FILES = {"airy_function": {"x.mtx", "F_C.mtx"}, "contact_forces": {"r.mtx"}, "displacement": {"displacement_mm.mtx"},
          "edge_displacements": {"edge_displacements_mm.npy", "F_C.mtx", "log.txt"}}
-# Pivots that end elsewhere on one processor or another, and say "ok" then; the residual tells.
-SUCCESS_IS_NO_PROOF = {"siconos-lemke"}
+# Which of these scenes its pivots fail in depends on the processor's last digits.
+PIVOTS = {"siconos-lemke"}
+HARD_FOR_PIVOTS = {"nearly incompressible": {"poisson": 0.49}, "more so": {"poisson": 0.499999}}
 STAGES = {"order", "precondition", "factor", "condense", "contact", "recover", "check"}
 
 
@@ -56,34 +57,43 @@ class PeerTest(ExportingTest):
         self.assertEqual(0, ran.returncode, ran.stderr)
         return folder, json.loads((folder / "answer.json").read_text(encoding="utf-8"))
 
-    def owns_up(self, said: dict) -> bool:
-        """Whether it is known to go wrong at times, and its own residual says that it did."""
-        return self.peer["name"] in SUCCESS_IS_NO_PROOF and said["error_estimate"] > 1e-6
+    def gave_up(self, said: dict) -> bool:
+        return self.peer["name"] in PIVOTS and said["status"] == "not_converged"
 
-    def test_it_goes_wrong_at_times_only(self) -> None:
-        if self.peer["name"] not in SUCCESS_IS_NO_PROOF:
-            self.skipTest("it is not known to go wrong")
-        wrong = [name for name, definition in SCENES.items() if self.owns_up(self.answer(definition)[1])]
-        self.assertLessEqual(len(wrong), 1, wrong)
+    def test_pivots_that_went_wrong_are_no_ok(self) -> None:
+        if self.peer["name"] not in PIVOTS:
+            self.skipTest("it does not pivot")
+        for name, definition in (SCENES | HARD_FOR_PIVOTS).items():
+            with self.subTest(name):
+                folder, said = self.answer(definition)
+                self.assertEqual(said["status"], "ok" if said["error_estimate"] <= 1e-8 else "not_converged")
+                if said["status"] == "ok":
+                    self.assertLess(self.error_of_forces(folder, definition), 1e-6)
 
     def test_the_harness_finds_no_mistake_in_it(self) -> None:
-        if self.peer["name"] in SUCCESS_IS_NO_PROOF:
-            self.skipTest("it goes wrong at times")
         ran = subprocess.run([BENCH, f"--check={self.declaration}"], capture_output=True, text=True,
                              check=False)
         self.assertEqual(0, ran.returncode, ran.stdout + ran.stderr)
+
+    def error_of_forces(self, folder: Path, definition: dict) -> float:
+        problem = np.load(self.export("npz", definition) / "problem.npz")
+        fclib = self.peer["format"] == "fclib"
+        forces = -mmread(folder / "r.mtx") if fclib else mmread(folder / "F_C.mtx")
+        without_friction = fclib and len(problem["F_C"]) == len(problem["mu"])
+        return difference(forces.ravel()[::2 if without_friction else 1], problem["F_C"])
 
     def test_its_word_is_well_formed(self) -> None:
         for name, definition in SCENES.items():
             with self.subTest(name):
                 folder, said = self.answer(definition)
-                self.assertEqual("ok", said["status"], said)
+                if not self.gave_up(said):
+                    self.assertEqual("ok", said["status"], said)
                 self.assertGreater(said["time_s"], 0)
                 self.assertLessEqual(set(said.get("stages", {})), STAGES)
                 self.assertLessEqual(sum(said.get("stages", {}).values()), 1.001 * said["time_s"])
                 for key in ("message", "parameters"):
                     self.assertIsInstance(said[key], str)
-                if "{tolerance}" in self.peer["command"] and not self.owns_up(said):
+                if "{tolerance}" in self.peer["command"] and not self.gave_up(said):
                     self.assertLess(said["error_estimate"], 1e-12)
                 self.assertEqual({"answer.json"} | FILES[self.peer["returns"]],
                                  {file.name for file in folder.iterdir()})
@@ -94,14 +104,8 @@ class PeerTest(ExportingTest):
         for name, definition in SCENES.items():
             with self.subTest(name):
                 folder, said = self.answer(definition)
-                if self.owns_up(said):
-                    continue
-                problem = np.load(self.export("npz", definition) / "problem.npz")
-                fclib = self.peer["format"] == "fclib"
-                forces = -mmread(folder / "r.mtx") if fclib else mmread(folder / "F_C.mtx")
-                without_friction = fclib and len(problem["F_C"]) == len(problem["mu"])
-                forces = forces.ravel()[::2 if without_friction else 1]
-                self.assertLess(difference(forces, problem["F_C"]), 1e-9)
+                if not self.gave_up(said):
+                    self.assertLess(self.error_of_forces(folder, definition), 1e-9)
 
     def test_its_airy_function_is_compatible_and_in_equilibrium(self) -> None:
         if self.peer["reads"] != "airy":

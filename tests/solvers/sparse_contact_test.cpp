@@ -126,6 +126,17 @@ TEST(SparseContact, ProximalPointsSolveWhatActiveSetsAloneDoNot) {
   }
 }
 
+TEST(SparseContact, ProximalPointsTakeADenseD) {
+  for (const int components : {2, 3}) {
+    const contact::Problem whole = dense(packing(Packed::flow, components, 60, 1));
+    ContactResult result = iterated(whole, ContactSolver::gauss_seidel, 10);
+    EXPECT_FALSE(result.converged);
+    finish_by_proximal_points(whole, {}, {}, result);
+    EXPECT_TRUE(result.converged) << components << ": " << result.natural_map_residual;
+    EXPECT_LT(relative_natural_map(whole, result.F_C), 1e-11);
+  }
+}
+
 TEST(SparseContact, SweepsSayThatTheyNeedTheRows) {
   const contact::Problem problem = condensed(packing(Packed::periodic_box, 2, 40, 1), nothing);
   for (const ContactSolver solver : {ContactSolver::gauss_seidel, ContactSolver::anderson})

@@ -1,6 +1,8 @@
 #include "tests/support/packings.hpp"
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -143,6 +145,18 @@ void choose(double mu, int components, PackingDice& dice, Eigen::Ref<Eigen::Vect
   if (which >= 2) u(tangent) = -dice.between(0.1, 1) * direction;
 }
 
+// r and u of every contact, and the w that they follow from. solve: M⁻¹ b.
+template <typename Solve>
+void choose_answer(PackingDice& dice, Packing& result, Solve solve) {
+  const ContactPoints& points = result.points;
+  const int m = points.components;
+  Eigen::VectorXd r(points.size()), u(points.size());
+  for (int p = 0; p < points.count; ++p)
+    choose(points.friction_at(p), m, dice, r.segment(m * p, m), u.segment(m * p, m));
+  result.w = u - result.H.transpose() * solve(Eigen::VectorXd(result.H * r));
+  result.F = -r;
+}
+
 }  // namespace
 
 Packing packing(Packed shape, int components, int contacts, unsigned seed) {
@@ -190,13 +204,59 @@ Packing packing(Packed shape, int components, int contacts, unsigned seed) {
     }
     return result;
   }
-  Eigen::VectorXd r(points.size()), u(points.size());
-  for (int p = 0; p < points.count; ++p)
-    choose(points.friction_at(p), components, dice, r.segment(components * p, components),
-           u.segment(components * p, components));
-  const Eigen::VectorXd v = (result.H * r).cwiseQuotient(result.M.diagonal());
-  result.w = u - result.H.transpose() * v;
-  result.F = -r;
+  choose_answer(dice, result, [&](const Eigen::VectorXd& b) {
+    return Eigen::VectorXd(b.cwiseQuotient(result.M.diagonal()));
+  });
+  return result;
+}
+
+Packing elastic_strip(int cells, unsigned seed) {
+  constexpr int height = 5, nodes_across = height + 1;
+  constexpr double mass = 1, lambda = 5, shear = 5;  // λ and G, of a time step's square
+  PackingDice dice(seed);
+  Packing result;
+  const int n = 2 * (cells + 1) * nodes_across;
+  const auto node = [](int i, int j) { return nodes_across * i + j; };
+  std::vector<Eigen::Triplet<double>> entries, columns;
+  for (int row = 0; row < n; ++row) entries.emplace_back(row, row, mass);
+  const auto add_triangle = [&](const std::array<int, 3>& corner, const Eigen::Matrix2d& edges) {
+    Eigen::Matrix<double, 2, 3> gradient;  // of the corners' shape functions
+    gradient.rightCols<2>() = edges.inverse().transpose();
+    gradient.col(0) = -gradient.col(1) - gradient.col(2);
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        const Eigen::Vector2d of_a = gradient.col(a), of_b = gradient.col(b);
+        const Eigen::Matrix2d K =
+            0.5 * (lambda * of_a * of_b.transpose() + shear * of_b * of_a.transpose() +
+                   shear * of_a.dot(of_b) * Eigen::Matrix2d::Identity());
+        for (int i = 0; i < 2; ++i)
+          for (int k = 0; k < 2; ++k)
+            entries.emplace_back(2 * corner[a] + i, 2 * corner[b] + k, K(i, k));
+      }
+  };
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < height; ++j) {
+      add_triangle({node(i, j), node(i + 1, j), node(i, j + 1)}, Eigen::Matrix2d::Identity());
+      add_triangle({node(i + 1, j + 1), node(i, j + 1), node(i + 1, j)},
+                   -Eigen::Matrix2d::Identity());
+    }
+  result.points.components = 2;
+  for (int i = 0; i <= cells; ++i)
+    for (const int j : {0, height}) {
+      const double inwards = j == 0 ? 1 : -1;  // contacts push the strip
+      const int p = result.points.count++;
+      columns.emplace_back(2 * node(i, j) + 1, 2 * p, inwards);
+      columns.emplace_back(2 * node(i, j), 2 * p + 1, inwards);
+      result.points.friction.push_back(dice.between(0.1, 0.3));
+    }
+  result.M.resize(n, n);
+  result.M.setFromTriplets(entries.begin(), entries.end());
+  result.H.resize(n, result.points.size());
+  result.H.setFromTriplets(columns.begin(), columns.end());
+  result.f = Eigen::VectorXd::Zero(n);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(result.M);
+  choose_answer(dice, result,
+                [&](const Eigen::VectorXd& b) { return Eigen::VectorXd(factor.solve(b)); });
   return result;
 }
 

@@ -31,4 +31,10 @@ struct Packing {
 // At least so many contacts.
 Packing packing(Packed shape, int components, int contacts, unsigned seed);
 
+// A long elastic strip of P1 triangles, cells × 5 squares, in a time step: M, one block, is its
+// mass and its stiffness, and contacts are at all nodes of both long sides. With few of M's entries
+// and many contacts, W is full and far larger than M and H. The answer is chosen; W is regular,
+// which makes it the only one. problem() does not apply.
+Packing elastic_strip(int cells, unsigned seed);
+
 }  // namespace airybench::testing

@@ -1,6 +1,10 @@
 // `bench --problem` from outside, and what other commands do with its records.
 #include <gtest/gtest.h>
 
+#include <map>
+#include <regex>
+#include <set>
+
 #include "tests/support/bench_command.hpp"
 #include "tests/support/environment_variable.hpp"
 
@@ -61,6 +65,44 @@ TEST_F(GivenProblemCommand, AFolderIsItsFiles) {
   std::vector<std::string> names;
   for (const Json& record : bench_.records()) names.push_back(record["mesh"]);
   EXPECT_EQ(names, (std::vector<std::string>{"one", "Mesh0-default"}));
+}
+
+// Each precision has a run that stops there, and not before.
+TEST_F(GivenProblemCommand, TheContactStudyRunsToTwoPrecisions) {
+  const testing::EnvironmentVariable then("AIRYBENCH_THEN", "touch drawn; true");
+  const auto ran = run("--study=contact");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(std::filesystem::exists(bench_.path("drawn")));
+  const std::vector<Json> records = bench_.records();
+  ASSERT_EQ(records.size(), 8u);
+  std::set<std::string> cases;
+  std::map<std::string, int> iterations;  // of the looser precision
+  for (const Json& record : records) {
+    const auto precision = record["knob_value"].get<double>();
+    const std::string solver = record["contact_solver"];
+    SCOPED_TRACE(solver + " to " + std::to_string(precision));
+    EXPECT_EQ(record["status"], "ok");
+    EXPECT_EQ(record["knob"], "tolerance");
+    EXPECT_EQ(record["target_error"], precision);
+    EXPECT_LE(record["natural_map_residual"], precision / 10);
+    EXPECT_LE(record["siconos_error"], precision);
+    cases.insert(solver + (precision == 1e-4 ? " 1e-4" : precision == 1e-8 ? " 1e-8" : " other"));
+    const int count = record["contact_iterations"];
+    if (solver == "newton") continue;  // its active sets end at once
+    if (precision == 1e-4)
+      iterations[solver] = count;
+    else
+      EXPECT_LT(iterations.at(solver), count);
+  }
+  EXPECT_EQ(cases.size(), 8u);
+  EXPECT_FALSE(cases.contains("newton other"));
+}
+
+TEST_F(GivenProblemCommand, TheTableSaysHowWIsHeld) {
+  testing::write_text(bench_.path("one.dat"), "2\n1\n0\n2\n2\n2 2\n1 0 0 1\n-1 0.5\n0.5\n");
+  const auto ran = bench_.run("--problem=one.dat --repetitions=1 --contact=newton --out=o");
+  EXPECT_TRUE(std::regex_search(ran.out, std::regex("case +n_c +W +time"))) << ran.out;
+  EXPECT_TRUE(std::regex_search(ran.out, std::regex("CONDENSED +2 +dense +"))) << ran.out;
 }
 
 TEST_F(GivenProblemCommand, MethodsOfBodiesAreSkipped) {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "bench/measure/heap_probe.hpp"
+#include "solvers/condensation/global_problem.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/admm.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
@@ -44,6 +45,27 @@ INSTANTIATE_TEST_SUITE_P(Of, SparseMemory,
                                            std::tuple(Packed::periodic_box, 2, 20'000),
                                            std::tuple(Packed::brick_wall, 3, 7'000),
                                            std::tuple(Packed::periodic_box, 3, 7'000)));
+
+// 3612 unknowns of finite elements, 602 contacts.
+TEST(UnformedMemory, FiniteElementsAreSolvedWithoutRoomForW) {
+  const testing::Packing strip = testing::elastic_strip(300, 1);
+  const std::int64_t n_c = strip.points.size(), bytes_of_W = 8 * n_c * n_c;
+  const std::int64_t of_input = 12 * (strip.M.nonZeros() + strip.H.nonZeros());
+  ASSERT_GT(bytes_of_W, 20 * of_input);
+  for (const ContactSolver solver : {ContactSolver::newton, ContactSolver::admm}) {
+    SCOPED_TRACE(name_of(solver));
+    const std::int64_t before = heap::live_bytes();
+    heap::reset_peak();
+    contact::Problem problem =
+        condense_global(strip.M, strip.H, strip.f, strip.w, {.entries = 0, .times = 5});
+    problem.points = strip.points;
+    ASSERT_EQ(problem.how, "not formed");
+    const ContactResult result = solve_contact(problem, {.solver = solver});
+    EXPECT_LT(heap::peak_bytes() - before, bytes_of_W);
+    EXPECT_TRUE(result.converged) << result.natural_map_residual;
+    EXPECT_LT((result.F_C - strip.F).norm(), 1e-9 * strip.F.norm());
+  }
+}
 
 TEST(SparseAllocations, NoneInsideASweep) {
   for (const int components : {2, 3}) {
