@@ -184,11 +184,13 @@ std::vector<ContactNormals> contact_normals(const Mesh& mesh, const Scene& scene
     const auto at = [&](const Eigen::Vector2d& x) {
       return values.wall ? facing(mesh, row, values).direction_at(x) : m;
     };
-    normals[static_cast<std::size_t>(row)] = {{at(a), at(middle), at(b)},
-                                              {at((2 * a + b) / 3), at((a + 2 * b) / 3)}};
     constexpr double rounding = 1e-12;
-    for (const Eigen::Vector2d& n : normals[static_cast<std::size_t>(row)].at_node)
-      own &= (n - m).norm() <= rounding;
+    for (int n = 1; n <= ContactNormals::most_parts; ++n)
+      for (int i = 0; i <= n; ++i) {
+        Eigen::Vector2d& normal = normals[static_cast<std::size_t>(row)].at(i, n);
+        normal = at(((n - i) * a + i * b) / n);
+        own &= (normal - m).norm() <= rounding;
+      }
   }
   if (own) normals.clear();
   return normals;

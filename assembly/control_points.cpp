@@ -33,7 +33,7 @@ ControlPoints control_points(const Problem& problem) {
     const std::array<ContactOffset, 3> offsets = problem.offset_coefficients(row);
     for (int k = 0; k < 3; ++k) {
       if (prescribed->at[nodes[k]]) continue;
-      const Eigen::Vector2d normal = problem.frame_at_node(row, k).normal;
+      const Eigen::Vector2d normal = problem.frame_at(row, k, 2).normal;
       if (const auto roller = prescribed->normal.find(nodes[k]);
           roller != prescribed->normal.end()) {
         const Eigen::Vector2d& m = roller->second;

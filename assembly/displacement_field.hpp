@@ -47,10 +47,9 @@ std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int
   for (int i = 0; i <= p; ++i) offsets[i] = {gap[i], slid[i], motion[i]};
   return offsets;
 }
-// Above p = 2 normals do not turn along an edge.
 template <int p>
 EdgeFrame frame_of_coefficient(const Problem& problem, int row, int i) {
-  return problem.frame_at_node(row, p == 2 ? i : 0);
+  return problem.frame_at(row, i, p);
 }
 
 template <int p>

@@ -79,7 +79,7 @@ ContactPoints contact_points(const Problem& problem, int degree) {
       contact.boundary.push_back(row);
       if (contact.components == 2) contact.friction.push_back(problem.friction_at(row));
       if (!problem.has_gap()) continue;
-      const Eigen::Vector2d normal = problem.frame_of_moment(row, j).normal;
+      const Eigen::Vector2d normal = problem.frame_of_moment(row, degree, j).normal;
       const std::array<Eigen::Vector2d, 3> along = {
           offset[0].along(normal), offset[1].along(normal), offset[2].along(normal)};
       const Eigen::Vector2d moment = moment_of_quadratic(degree, j, along);
@@ -113,7 +113,7 @@ void build_constraints(DualSystem& system) {
     for (int k = 0; k < 2; ++k) {
       const auto rows = edge.forces.middleRows<2>(2 * k);
       const Eigen::Vector2d f = particular_force(problem, edge, k);
-      const EdgeFrame frame = problem.frame_of_moment(edge.row, k);
+      const EdgeFrame frame = problem.frame_of_moment(edge.row, 1, k);
       for (int i = 0; i < 2; ++i) {
         const Eigen::Vector2d& axis = i == 0 ? frame.normal : frame.tangent;
         if (condition.component[i] == Known::contact_law)
@@ -175,9 +175,6 @@ std::size_t DualSystem::bytes() const {
 }
 
 std::string why_no_blocks(const Problem& problem, Blocks blocks, int degree) {
-  if (degree > 1 && problem.contact_turns())
-    return "stresses of degree " + std::to_string(degree) +
-           " need walls whose normal does not turn along an edge";
   if (degree > 2 && problem.has_friction() && !problem.later_steps.empty())
     return "stresses of degree " + std::to_string(degree) +
            " have no load steps with friction (degrees 1 and 2 have them)";

@@ -43,8 +43,9 @@ ContactOffset Problem::offset_at(const Eigen::Vector2d& x, int boundary_row) con
   if (loads.gap_mm) offset.gap_mm = loads.gap_mm(x, boundary_row);
   if (loads.slid_mm.empty()) return offset;
   const auto [a, m, b] = loads.slid_mm[static_cast<std::size_t>(boundary_row)];
-  const Eigen::Vector2d& start = mesh.vertices[mesh.boundary[boundary_row].vertices[0]];
-  const double s = (x - start).norm() / own_frame(boundary_row).length_mm;
+  const auto [first, last] = mesh.boundary[boundary_row].vertices;
+  const Eigen::Vector2d &start = mesh.vertices[first], &end = mesh.vertices[last];
+  const double s = (x - start).norm() / (end - start).norm();
   offset.slid_mm = a * (1 - s) * (1 - s) + 2 * m * s * (1 - s) + b * s * s;
   return offset;
 }
@@ -69,7 +70,7 @@ std::array<ContactOffset, 3> Problem::offset_coefficients(int boundary_row) cons
 bool Problem::contact_turns() const {
   for (std::size_t row = 0; row < contact_normals.size(); ++row)
     if (mesh.boundary[row].role == BoundaryRole::contact &&
-        contact_normals[row].at_node[0] != contact_normals[row].at_node[2])
+        contact_normals[row].at(0, 1) != contact_normals[row].at(1, 1))
       return true;
   return false;
 }
@@ -108,13 +109,10 @@ bool same_body(const Problem& a, const Problem& b) {
   const auto alike = [](const BoundaryEdge& x, const BoundaryEdge& y) {
     return x.vertices == y.vertices && x.role == y.role;
   };
-  const auto same_normals = [](const ContactNormals& x, const ContactNormals& y) {
-    return x.at_node == y.at_node && x.at_moment == y.at_moment;
-  };
   if (a.mesh.vertices != b.mesh.vertices || a.mesh.triangles != b.mesh.triangles ||
       a.mesh.triangle_body != b.mesh.triangle_body || a.compliance != b.compliance ||
       !std::ranges::equal(a.mesh.boundary, b.mesh.boundary, alike) ||
-      !std::ranges::equal(a.contact_normals, b.contact_normals, same_normals))
+      a.contact_normals != b.contact_normals)
     return false;
   for (int row = 0; row < static_cast<int>(a.mesh.boundary.size()); ++row)
     if (const EdgeCondition x = a.condition(row), y = b.condition(row);

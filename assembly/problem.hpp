@@ -56,13 +56,21 @@ struct EdgeCondition {
   std::array<Known, 2> component;
 };
 
-// Outward normals of an edge's contact law: at the nodes of quadratic displacements (start, middle,
-// end), and for the forces and moments of both ends at the centres of their weights N_a and N_b,
-// the edge's thirds. On a flat wall all are equal. In a round wall a body can then turn without
-// strain, since ∫ N_a ωJx ds ∥ J x_third.
-struct ContactNormals {
-  std::array<Eigen::Vector2d, 3> at_node;
-  std::array<Eigen::Vector2d, 2> at_moment;
+// Outward normals of an edge's contact law, at i/n of the way from its start to its end. On a flat
+// wall all are equal.
+class ContactNormals {
+ public:
+  static constexpr int most_parts = highest_stress_degree + 2;
+  ContactNormals() { normals_.fill(Eigen::Vector2d::Zero()); }
+  Eigen::Vector2d& at(int i, int n) { return normals_[place(i, n)]; }  // 0 ≤ i ≤ n ≤ most_parts
+  const Eigen::Vector2d& at(int i, int n) const { return normals_[place(i, n)]; }
+  bool operator==(const ContactNormals&) const = default;
+
+ private:
+  static constexpr std::size_t place(int i, int n) {
+    return static_cast<std::size_t>((n - 1) * (n + 2) / 2 + i);
+  }
+  std::array<Eigen::Vector2d, most_parts*(most_parts + 3) / 2> normals_;
 };
 
 // Rollers are parallel if the sine between their directions is smaller.
@@ -127,16 +135,22 @@ struct Problem {
   // True if the law's normal changes along an edge. Stresses and displacements are then admissible
   // up to the square of that angle.
   bool contact_turns() const;
-  // The edge's own frame, on Γ_C the contact law's. moment: of the start (0), or of the end (1 and,
-  // for stresses of higher degree, whose walls do not turn, more); node: start, middle, end.
+  // The edge's own frame, on Γ_C the contact law's, at i/n of the way from start to end.
   template <typename Scalar = double>
-  EdgeFrameIn<Scalar> frame_of_moment(int boundary_row, int moment) const {
-    return turned(own_frame<Scalar>(boundary_row), boundary_row,
-                  [&](const ContactNormals& n) { return n.at_moment[moment > 0 ? 1 : 0]; });
+  EdgeFrameIn<Scalar> frame_at(int boundary_row, int i, int n) const {
+    const auto [a, b] = mesh.boundary[boundary_row].vertices;
+    const EdgeFrameIn<Scalar> own = edge_frame<Scalar>(mesh.vertices[a], mesh.vertices[b]);
+    if (contact_normals.empty() || mesh.boundary[boundary_row].role != BoundaryRole::contact)
+      return own;
+    const Eigen::Vector2<Scalar> normal =
+        contact_normals[boundary_row].at(i, n).template cast<Scalar>().normalized();
+    return {own.length_mm, {-normal.y(), normal.x()}, normal};
   }
-  EdgeFrame frame_at_node(int boundary_row, int node) const {
-    return turned(own_frame(boundary_row), boundary_row,
-                  [&](const ContactNormals& n) { return n.at_node[node]; });
+  // Of F_j and ū_j, for stresses of a degree: at the centre of the weight B_j. In a round wall a
+  // body can then turn without strain, since ∫ B_j ωJx ds ∥ J x_centre.
+  template <typename Scalar = double>
+  EdgeFrameIn<Scalar> frame_of_moment(int boundary_row, int degree, int j) const {
+    return frame_at<Scalar>(boundary_row, j + 1, degree + 2);
   }
 
   // Without friction the tangential force on Γ_C is known, as on a roller: zero.
@@ -154,21 +168,6 @@ struct Problem {
     const Eigen::Vector2<Scalar> d = x - mesh.vertices[central_vertex].cast<Scalar>();
     const Eigen::Vector2<Scalar> b = loads.body_force_N_per_mm3.cast<Scalar>();
     return {-b.x() * d.x(), -b.y() * d.y(), Scalar(0)};
-  }
-
- private:
-  template <typename Scalar = double>
-  EdgeFrameIn<Scalar> own_frame(int boundary_row) const {
-    const auto [a, b] = mesh.boundary[boundary_row].vertices;
-    return edge_frame<Scalar>(mesh.vertices[a], mesh.vertices[b]);
-  }
-  template <typename Scalar, typename Normal>
-  EdgeFrameIn<Scalar> turned(EdgeFrameIn<Scalar> frame, int boundary_row, Normal normal) const {
-    if (contact_normals.empty() || mesh.boundary[boundary_row].role != BoundaryRole::contact)
-      return frame;
-    const Eigen::Vector2<Scalar> n =
-        normal(contact_normals[boundary_row]).template cast<Scalar>().normalized();
-    return {frame.length_mm, {-n.y(), n.x()}, n};
   }
 };
 

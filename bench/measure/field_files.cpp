@@ -239,7 +239,7 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
     const double s = static_cast<double>(j) / (contact.per_edge - 1);
     picture.at_mm.push_back((1 - s) * system.problem->mesh.vertices[start] +
                             s * system.problem->mesh.vertices[end]);
-    picture.frame.push_back(system.problem->frame_of_moment(row, j));
+    picture.frame.push_back(system.problem->frame_of_moment(row, system.degree, j));
   }
   if (has_own_points)
     take_forces(contact, solution, picture);

@@ -143,7 +143,7 @@ std::string words_of_least_gap(const Problem& problem) {
     const Eigen::Vector2d &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
     for (int node = 0; node < 3; ++node)
       least_mm = std::min(least_mm, problem.offset_at(a + node * (b - a) / 2, row)
-                                        .along(problem.frame_at_node(row, node).normal)
+                                        .along(problem.frame_at(row, node, 2).normal)
                                         .x());
   }
   if (std::isinf(least_mm)) return "";

@@ -86,7 +86,7 @@ std::vector<KnownRow> known_rows(const Problem& problem, Known known) {
   const auto add_edge = [&](int row) {
     const EdgeCondition condition = problem.condition(row);
     for (const int end : {0, 1}) {
-      const EdgeFrame frame = problem.frame_of_moment(row, end);
+      const EdgeFrame frame = problem.frame_of_moment(row, 1, end);
       const std::array<Eigen::Vector2d, 2> axes =
           condition.in_frame
               ? std::array{frame.normal, frame.tangent}
@@ -161,10 +161,10 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
     friction(row) = problem.friction_at(row);
     if (role == BoundaryRole::contact)
       for (const int k : {0, 1})
-        moment_normals.row(row).segment<2>(2 * k) = problem.frame_of_moment(row, k).normal;
+        moment_normals.row(row).segment<2>(2 * k) = problem.frame_of_moment(row, 1, k).normal;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector2d x = k == 0 ? a : k == 2 ? b : Eigen::Vector2d((a + b) / 2);
-      const EdgeFrame frame = problem.frame_at_node(row, k);
+      const EdgeFrame frame = problem.frame_at(row, k, 2);
       if (role == BoundaryRole::displacement) {
         u0.row(row).segment<2>(2 * k) = problem.motion.at(x);
         if (problem.loads.displacement_mm)

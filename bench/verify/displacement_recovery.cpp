@@ -148,7 +148,7 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
     std::array<Eigen::Vector2d, k + 1> force;
     for (int j = 0; j <= k; ++j) {
-      const EdgeFrame frame = problem.frame_of_moment(row, j);
+      const EdgeFrame frame = problem.frame_of_moment(row, k, j);
       const int at = m * (point + j);
       force[j] = F_C(at) * frame.normal + (m == 2 ? F_C(at + 1) : 0) * frame.tangent;
     }

@@ -127,7 +127,7 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
     } else if (role == BoundaryRole::contact) {
       const int m = system.contact.components;
       for (int j = 0; j <= degree; ++j, ++point) {
-        const EdgeFrame of_law = problem.frame_of_moment(row, j);
+        const EdgeFrame of_law = problem.frame_of_moment(row, degree, j);
         off.col(j) -= solution.F_C(m * point) * of_law.normal;
         if (m == 2) off.col(j) -= solution.F_C(m * point + 1) * of_law.tangent;
       }
@@ -185,8 +185,9 @@ Eigen::MatrixXd in_frames(const Problem& problem, Eigen::MatrixXd moments) {
     const auto [a, b] = problem.mesh.boundary[row].vertices;
     auto own = moments.col(problem.edges.of_boundary[row]).reshaped(2, moments.rows() / 2);
     if (a > b) own = own.rowwise().reverse().eval();
-    for (int j = 0; j < own.cols(); ++j) {
-      const EdgeFrame frame = problem.frame_of_moment(row, j);
+    const int degree = static_cast<int>(own.cols()) - 1;
+    for (int j = 0; j <= degree; ++j) {
+      const EdgeFrame frame = problem.frame_of_moment(row, degree, j);
       own.col(j) = Eigen::Vector2d(frame.normal.dot(own.col(j)), frame.tangent.dot(own.col(j)));
     }
   }
@@ -273,7 +274,7 @@ double beyond_both_normals(const Problem& problem, const ControlPoints& control,
   const std::array<int, 3> nodes = boundary_nodes(problem, row);
   const auto k = std::ranges::find(nodes, control.node[p]) - nodes.begin();
   const Eigen::Vector2d of_edge =
-      control.frame(p).transpose() * problem.frame_at_node(row, static_cast<int>(k)).normal;
+      control.frame(p).transpose() * problem.frame_at(row, static_cast<int>(k), 2).normal;
   return std::max(0.0, std::abs(t) - std::max(0.0, -F_n) * std::abs(of_edge.y() / of_edge.x()));
 }
 

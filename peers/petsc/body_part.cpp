@@ -79,8 +79,8 @@ Problem with_boundary(Mesh mesh, MeshEdges edges, std::vector<Eigen::Matrix3d> c
     given->along.emplace_back(mesh.vertices[a], mesh.vertices[b] - mesh.vertices[a]);
     if (friction) problem.friction.push_back(arrays->friction(given->row[of]));
     ContactNormals& normals = problem.contact_normals.emplace_back();
-    for (int k = 0; k < 3; ++k) normals.at_node[k] = given->pair(arrays->normals, of, k);
-    for (int k = 0; k < 2; ++k) normals.at_moment[k] = given->pair(arrays->moment_normals, of, k);
+    for (int k = 0; k < 3; ++k) normals.at(k, 2) = given->pair(arrays->normals, of, k);
+    for (int k = 0; k < 2; ++k) normals.at(k + 1, 3) = given->pair(arrays->moment_normals, of, k);
   }
   // Friction anywhere on the boundary makes has_friction() true on every rank.
   if (friction && problem.friction.empty()) problem.friction.push_back(0);

@@ -40,7 +40,7 @@ std::vector<FramedPoint> points_of_slots(const BodyPart& part) {
           (2 * part.problem.mesh.vertices[ends[end]] + part.problem.mesh.vertices[ends[1 - end]]) /
           3;
       if (row == no_frame) continue;
-      const EdgeFrame frame = problem.frame_of_moment(row, end);
+      const EdgeFrame frame = problem.frame_of_moment(row, 1, end);
       point.frame << frame.normal, frame.tangent;
     }
   }

@@ -116,7 +116,7 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
     const LongColumn<4> forces = edge.forces * gather<Long>(system, answer.x, edge.dofs);
     LongColumn<4> u = LongColumn<4>::Zero();  // −λ in x and y
     for (int end = 0; end < 2; ++end) {
-      const EdgeFrameIn<Long> frame = system.problem->frame_of_moment<Long>(row, end);
+      const EdgeFrameIn<Long> frame = system.problem->frame_of_moment<Long>(row, 1, end);
       for (int k = 0; k < 2; ++k) {
         if (condition.component[k] == Known::displacement) continue;
         const Eigen::Vector2<Long> axis = condition.in_frame

@@ -7,7 +7,8 @@
 namespace airybench {
 
 template <typename Scalar>
-DegreeInput<Scalar> degree_input(const Problem& problem, const std::vector<int>& rows, int t) {
+DegreeInput<Scalar> degree_input(const Problem& problem, const std::vector<int>& rows, int degree,
+                                 int t) {
   DegreeInput<Scalar> input;
   input.vertices = problem.vertices_of(t);
   input.compliance = problem.compliance_of(t);
@@ -15,7 +16,10 @@ DegreeInput<Scalar> degree_input(const Problem& problem, const std::vector<int>&
   for (int e = 0; e < 3; ++e) {
     const int row = rows[problem.edges.of_triangle[t][e]];
     input.from_start[e] = row != no_frame || corner[e] < corner[(e + 1) % 3];
-    if (row != no_frame) input.frame[e] = problem.frame_of_moment<Scalar>(row, 0);
+    input.in_frame[e] = row != no_frame;
+    if (input.in_frame[e])
+      for (int j = 0; j <= degree; ++j)
+        input.frame[e][j] = problem.frame_of_moment<Scalar>(row, degree, j);
     if (problem.loads.has_body_force())
       input.particular.col(e) =
           problem.particular_stress<Scalar>(input.vertices.col(e).template cast<Scalar>());
@@ -39,8 +43,10 @@ struct Kernels {
     return 2 * ((k + 1) * e + (input.from_start[e] ? j : k - j));
   }
   static Pair from_axes(const Input& input, int pair, const Pair& v) {
-    const auto& frame = input.frame[pair / (k + 1)];
-    return frame ? Pair(frame->normal.dot(v), frame->tangent.dot(v)) : v;
+    const int e = pair / (k + 1);
+    if (!input.in_frame[e]) return v;
+    const auto& frame = input.frame[e][pair % (k + 1)];
+    return {frame.normal.dot(v), frame.tangent.dot(v)};
   }
   static void from_axes(const Input& input, const OnEdges& of_element, Scalar* values) {
     for (int p = 0; p < size / 2; ++p)
@@ -51,9 +57,10 @@ struct Kernels {
     OnEdges of_element;
     for (int p = 0; p < size / 2; ++p) {
       const Pair v = Eigen::Map<const Pair>(values + place(input, p));
-      const auto& frame = input.frame[p / (k + 1)];
+      const int e = p / (k + 1);
+      const auto& frame = input.frame[e][p % (k + 1)];
       of_element.template segment<2>(2 * p) =
-          frame ? Pair(v(0) * frame->normal + v(1) * frame->tangent) : v;
+          input.in_frame[e] ? Pair(v(0) * frame.normal + v(1) * frame.tangent) : v;
     }
     return of_element;
   }
@@ -66,7 +73,7 @@ struct Kernels {
     const Element element(input.vertices, input.compliance);
     typename Element::Stiffness K = element.stiffness(), own;
     for (int p = 0; p < size / 2; ++p)
-      if (input.frame[p / (k + 1)])
+      if (input.in_frame[p / (k + 1)])
         for (int j = 0; j < size; ++j)
           K.col(j).template segment<2>(2 * p) =
               from_axes(input, p, K.col(j).template segment<2>(2 * p));
@@ -110,8 +117,8 @@ const DegreeKernels<Scalar>& degree_kernels(int degree) {
   });
 }
 
-template DegreeInput<double> degree_input(const Problem&, const std::vector<int>&, int);
-template DegreeInput<long double> degree_input(const Problem&, const std::vector<int>&, int);
+template DegreeInput<double> degree_input(const Problem&, const std::vector<int>&, int, int);
+template DegreeInput<long double> degree_input(const Problem&, const std::vector<int>&, int, int);
 template const DegreeKernels<double>& degree_kernels(int);
 template const DegreeKernels<long double>& degree_kernels(int);
 

@@ -14,7 +14,8 @@ struct DegreeInput {
   Eigen::Matrix3<Data<Scalar>> compliance;
   Eigen::Matrix3<Scalar> particular;  // σ_p at the vertices
   std::array<bool, 3> from_start;     // the edge's moments follow the element's walk
-  std::array<std::optional<EdgeFrameIn<Scalar>>, 3> frame;  // else its components are x and y
+  std::array<bool, 3> in_frame;       // its components are in `frame`, else x and y
+  std::array<std::array<EdgeFrameIn<Scalar>, highest_stress_degree + 1>, 3> frame;  // per moment
 };
 
 // What comes out are plain arrays, of the sizes of StressDegree and as in hybrid_element.hpp.
@@ -33,7 +34,7 @@ const DegreeKernels<Scalar>& degree_kernels(int degree);
 
 // rows: per edge (rows_in_frame).
 template <typename Scalar>
-DegreeInput<Scalar> degree_input(const Problem& problem, const std::vector<int>& rows,
+DegreeInput<Scalar> degree_input(const Problem& problem, const std::vector<int>& rows, int degree,
                                  int triangle);
 
 }  // namespace airybench

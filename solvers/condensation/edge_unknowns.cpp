@@ -65,8 +65,9 @@ Eigen::MatrixXd edge_moments(const Problem& problem, const EdgeUnknowns& unknown
     if (!problem.condition(row).in_frame) continue;
     const auto [a, b] = problem.mesh.boundary[row].vertices;
     auto own = moments.col(problem.edges.of_boundary[row]).reshaped(2, unknown.length() / 2);
-    for (int j = 0; j < own.cols(); ++j) {
-      const EdgeFrame frame = problem.frame_of_moment(row, j);
+    const int degree = static_cast<int>(own.cols()) - 1;
+    for (int j = 0; j <= degree; ++j) {
+      const EdgeFrame frame = problem.frame_of_moment(row, degree, j);
       own.col(j) = (own(0, j) * frame.normal + own(1, j) * frame.tangent).eval();
     }
     if (a > b) own = own.rowwise().reverse().eval();

@@ -20,7 +20,7 @@ Eigen::Matrix4<Scalar> edge_components(const Problem& problem, int triangle, int
   Eigen::Matrix4<Scalar> q = Eigen::Matrix4<Scalar>::Zero();
   if (row != no_frame) {
     for (int end = 0; end < 2; ++end) {
-      const EdgeFrameIn<Scalar> frame = problem.frame_of_moment<Scalar>(row, end);
+      const EdgeFrameIn<Scalar> frame = problem.frame_of_moment<Scalar>(row, 1, end);
       q.template block<2, 1>(2 * end, 2 * end) = frame.normal;
       q.template block<2, 1>(2 * end, 2 * end + 1) = frame.tangent;
     }

@@ -130,8 +130,8 @@ void visit_stiffness(const Problem& problem, int degree, Visit visit) {
     const auto size = static_cast<std::size_t>(6 * (degree + 1));
     std::vector<Scalar> lower(size * (size + 1) / 2), load(size);
     for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-      const Scalar independence = kernels.stiffness(degree_input<Scalar>(problem, rows, t), loaded,
-                                                    lower.data(), load.data());
+      const Scalar independence = kernels.stiffness(degree_input<Scalar>(problem, rows, degree, t),
+                                                    loaded, lower.data(), load.data());
       checked(t, {lower.data(), load.data(), independence});
     }
     return;
@@ -203,8 +203,8 @@ void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& sy
     for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
       element_displacement<Scalar>(problem, system, u, t, local);
       const Scalar energy =
-          kernels.stress(degree_input<Scalar>(problem, rows, t), loaded, local.data(),
-                         stress.data(), forces.data(), defect.data());
+          kernels.stress(degree_input<Scalar>(problem, rows, system.degree(), t), loaded,
+                         local.data(), stress.data(), forces.data(), defect.data());
       visit(t, StressOfTriangle<Scalar>{stress.data(), forces.data(), defect.data(), energy});
     }
     return;

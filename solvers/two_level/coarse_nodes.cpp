@@ -48,7 +48,7 @@ void CoarseNodes::find_blocks(const Problem& problem, const std::vector<int>& bl
     if (condition.in_frame && kind == CoarseKind::linear)
       of.nodes = problem.mesh.boundary[row].vertices;
     for (int end = 0; end < 2; ++end) {
-      const EdgeFrame own = problem.frame_of_moment(row, end);
+      const EdgeFrame own = problem.frame_of_moment(row, 1, end);
       of.direction[2 * end] = condition.in_frame ? own.normal : Eigen::Vector2d::UnitX();
       of.direction[2 * end + 1] = condition.in_frame ? own.tangent : Eigen::Vector2d::UnitY();
       for (int k = 0; k < 2; ++k)
