@@ -186,7 +186,11 @@ def walls_of(s: Fields, times: float) -> list[np.ndarray]:
         nearest = gap[face] <= max(gap[face].min(), 0)
         touching = (s.state[face] != "open")[..., None] if (s.state[face] != "open").any() else nearest
         shift = (times - 1) * offset[face][touching].mean()
-        found.append((at + u + (gap + shift) * normal)[face].reshape(-1, 2))
+        wall, n = at + u + (gap + shift) * normal, normal[face][0, 0]
+        if np.allclose(normal[face], n):  # flat; on a curved face p is on a chord, but where it touches
+            level = (wall @ n)[face][touching[..., 0]].mean()
+            wall = wall + (level - wall @ n)[..., None] * n
+        found.append(wall[face].reshape(-1, 2))
     return found
 
 

@@ -31,7 +31,7 @@ namespace {
 constexpr const char* advise_footer = R"(
 The mesh is adapted until the error is met; on what it becomes, methods are measured, as far as the budget goes.
 Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, forecast beyond, with
-a range, by the growth of earlier records; its error by a power law. Earlier records are taken to be of this machine's
+a range, by the growth of earlier records; its error by a power law, which is optimistic. Earlier records are taken to be of this machine's
 speed after that measurement. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv,
 records, meshes, fields.
 
@@ -141,14 +141,16 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
   forecast.n_phi = std::llround(n_phi);
   forecast.error_total = *fine.error_total * std::pow(gain, more);
   const Prediction expected = grown(fine, *forecast.n_phi, past);
-  const std::optional<Estimate>&time_s = expected.time_s, &heap = expected.peak_heap_bytes;
-  if (!time_s || !heap || time_s->high > widest * time_s->low)
+  const std::optional<Estimate>& time_s = expected.time_s;
+  if (!time_s || time_s->high > widest * time_s->low)
     return Advice{forecast, "forecast: no earlier record is nearly as large", ""};
   forecast.time_s = time_s->value;
-  forecast.peak_heap_bytes = std::llround(heap->value);
-  return Advice{
-      forecast,
-      fmt::format("forecast: {} to {}", show_seconds(time_s->low), show_seconds(time_s->high)), ""};
+  if (const std::optional<Estimate>& heap = expected.peak_heap_bytes)
+    forecast.peak_heap_bytes = std::llround(heap->value);
+  return Advice{forecast,
+                fmt::format("forecast: {} to {}, the error at best", show_seconds(time_s->low),
+                            show_seconds(time_s->high)),
+                ""};
 }
 
 // Why a method is not worth a measurement next to the fastest one; empty: it is.

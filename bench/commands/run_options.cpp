@@ -240,8 +240,8 @@ void read_adapt(const std::string& text, Options& options) {
     const std::optional<AdaptGoal> goal = adapt_goal_of(item);
     if (!goal)
       refuse("--adapt", item,
-             "a total error above 0% and below 100%, as 1%, or a number of unknowns from 1 to "
-             "5000000");
+             "a total error above 0% and below 100%, as 1%, or a number of unknowns from "
+             "100 to 5000000");
     options.adapt.push_back(*goal);
   }
   options.adapt_by = parts.setting("by").value_or(options.adapt_by);

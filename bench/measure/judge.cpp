@@ -99,7 +99,7 @@ void Judge::judge(const Method& method, const std::vector<JudgedStep>& steps,
   take_over(steps.back().seen(), record);
   record.answer_hash = answer_hash(steps.back().seen());
   if (record.status == Status::ok) judge_method_error(method, steps, solution, record);
-  if (problem_) judge_discretisation(method, solution, record);
+  if (problem_) judge_discretisation(method, steps, solution, record);
 }
 
 void Judge::judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,

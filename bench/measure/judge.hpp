@@ -68,7 +68,8 @@ class Judge {
   // Null: stresses or displacements are missing.
   const Discretisation* discretisation(Bound bound, int degree);
   std::optional<Discretisation> compute_discretisation(Bound bound, int degree);
-  void judge_discretisation(const Method& method, const Solution& solution, Record& record);
+  void judge_discretisation(const Method& method, const std::vector<JudgedStep>& steps,
+                            const Solution& solution, Record& record);
   void note_discretisation(const Method& method, Record& record);
   // For an external program: its displacements, made admissible.
   void note_error_of_displacement(const Solution& solution, Record& record);

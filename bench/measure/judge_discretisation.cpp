@@ -142,8 +142,21 @@ const Json* Judge::half_steps() {
   return &*steps_in_halves_;
 }
 
+namespace {
+
+// What is left of a path's stresses is rounding: nothing is relative to it.
+bool ends_unloaded(const std::vector<JudgedStep>& steps) {
+  constexpr double rounding = 1e-20;  // of energy
+  double largest = 0;
+  for (const JudgedStep& step : steps) largest = std::max(largest, step.seen().strain_energy_Nmm);
+  return steps.size() > 1 && steps.back().seen().strain_energy_Nmm <= rounding * largest;
+}
+
+}  // namespace
+
 // An error above 100 % is not ok. Gives a reason if a displacement method has no error.
-void Judge::judge_discretisation(const Method& method, const Solution& solution, Record& record) {
+void Judge::judge_discretisation(const Method& method, const std::vector<JudgedStep>& steps,
+                                 const Solution& solution, Record& record) {
   if (method.in_displacements && solution.program)
     note_error_of_displacement(solution, record);
   else
@@ -151,7 +164,12 @@ void Judge::judge_discretisation(const Method& method, const Solution& solution,
   const Json* const halves = half_steps();
   if (halves != nullptr) record.steps_in_halves = *halves;
   if (record.status != Status::ok) return;
-  if (record.error_discretisation.value_or(0) > 1) {
+  if (ends_unloaded(steps)) {
+    record.error_discretisation.reset();
+    record.error_mean.reset();
+    record.no_discretisation_error =
+        "the last load step has no stress that it could be relative to";
+  } else if (record.error_discretisation.value_or(0) > 1) {
     record.status = Status::inaccurate;
     record.status_reason = fmt::format("its total error is {:.0f} %: nothing of it is known",
                                        100 * *record.error_discretisation);

@@ -48,7 +48,7 @@ void note(const ConstitutiveError& error, const char* by, Record& record);
 void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
 // "; the least gap to the wall is 0.012 mm", of the body as it is held, before it deforms; empty:
-// it has no contact boundary.
+// it has no contact boundary, or a path of load steps.
 std::string words_of_least_gap(const Problem& problem);
 // Gives a verified ok case its reason: nothing touches, can touch, or is free.
 void note_what_is_idle(const Problem& problem, Record& record);

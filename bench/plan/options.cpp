@@ -10,10 +10,10 @@
 namespace airybench {
 
 std::optional<AdaptGoal> adapt_goal_of(const std::string& text) {
-  constexpr std::int64_t most_unknowns = 5'000'000;
+  constexpr std::int64_t fewest_unknowns = 100, most_unknowns = 5'000'000;  // --adapt=1: 1%?
   if (const std::optional<double> error = parse_percent(text)) return AdaptGoal{error, {}};
   const std::optional<std::int64_t> unknowns = parse_whole(text);
-  if (!unknowns || *unknowns < 1 || *unknowns > most_unknowns) return {};
+  if (!unknowns || *unknowns < fewest_unknowns || *unknowns > most_unknowns) return {};
   return AdaptGoal{{}, static_cast<int>(*unknowns)};
 }
 

@@ -106,6 +106,18 @@ bool times_tie(const Record& a, const Record& b) {
          *b.time_low_s <= *a.time_high_s;
 }
 
+std::optional<double> worst_error_total(const Record& record) {
+  std::optional<double> worst = record.error_total;
+  for (const Json& step : record.steps)
+    if (const auto of_mesh = step.find("error_discretisation");
+        of_mesh != step.end() && of_mesh->is_number()) {
+      const Json& error = step.at("error");
+      const double total = of_mesh->get<double>() + (error.is_number() ? error.get<double>() : 0);
+      worst = std::max(worst.value_or(0), total);
+    }
+  return worst;
+}
+
 bool has_few_samples(const Record& record) {
   return std::ssize(record.samples_s) < fewest_to_tell_apart;
 }

@@ -15,6 +15,9 @@ std::string outcome_of(const Record& record);
 bool times_tie(const Record& a, const Record& b);
 inline constexpr int fewest_to_tell_apart =
     5;  // two samples of five differ at p < 0.01, of four never
+// error_total, of a path of load steps the largest of its steps'.
+std::optional<double> worst_error_total(const Record& record);
+
 bool has_few_samples(const Record& record);
 
 }  // namespace airybench

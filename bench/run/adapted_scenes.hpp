@@ -20,7 +20,7 @@ void check_adapting_method(const Options& options);  // throws UsageError (optio
 // Prints progress to standard error. Throws UsageError, FileError, Interrupted.
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 
-// Refines level 0 uniformly once; writes the mesh next to it, MESH+refined1.msh.
+// Refines level 0 uniformly once; writes the mesh next to it, MESH+refine1.msh.
 PosedScene refined_scene(const PosedScene& level_0, const Options& options);
 
 }  // namespace airybench

@@ -139,7 +139,7 @@ def draw_over_time(axes: Axes, rows: list[Row], time: Callable[[Row], float | No
     labels, named = Labels(axes), set()
     higher = {row.family for row in rows if row.degree > 1}
     lines = grouped(sorted(filter(time, rows), key=lambda row: (kind_of(row) != "adapted", order(row), row.n_phi)),
-                    lambda row: (row.method, kind_of(row)))
+                    lambda row: (row.method, kind_of(row), kind_of(row) == "adapted" and adapting(row)))
     for own in lines.values():
         first, look = own[0], own[0].look
         words = first.label + ", degree 1" * (first.degree == 1 and first.family in higher)

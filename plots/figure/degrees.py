@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from matplotlib.figure import Figure
 
 from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
-from figure.adaptive import draw_over_time, kinds_in
+from figure.adaptive import adapting, draw_over_time, kinds_in
 from records import Row
 from selection import grouped, kind_of
 from words import CASE, csv_of, left_out, plain, threads
@@ -18,7 +18,7 @@ Panel = tuple[str, str]  # body and scene
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     run = [row for row in rows if not row.study and row.stop == "target"]
-    known = [row for row in run if row.completed and row.error_total and time_of(row)]
+    known = [row for row in run if row.completed and row.error_total and time_of(row) and has_own_mesh(row)]
     degrees = grouped(known, panel_of)
     shown = [panel for panel, own in degrees.items() if len({row.degree for row in own}) > 1][:PANELS]
     if shown:
@@ -26,8 +26,19 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
                       options=dict(run=run))
 
 
+def why(row: Row) -> str:
+    return "no total error" if not row.error_total else \
+        "only on other bodies" if has_own_mesh(row) else "on meshes adapted by another degree"
+
+
 def panel_of(row: Row) -> Panel:
     return row.body, row.scene
+
+
+def has_own_mesh(row: Row) -> bool:
+    """An adapted mesh is of the degree that solved its levels: their time is not another's."""
+    of_other_degree = row.method.startswith("HYBRID:k=") or row.method == "HYBRID"
+    return kind_of(row) != "adapted" or adapting(row) == row.method or not of_other_degree
 
 
 def time_of(row: Row) -> float | None:
@@ -48,7 +59,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
         f"Total error of the stresses, mesh and method together; {threads(rows)}. Meshes: {kinds_in(rows)}. "
         "Time: one solve; on adapted meshes the whole loop, all levels and error estimates.",
         f"Bodies not drawn: {', '.join(map(title_of, others))}." if others else "",
-        left_out(run, rows, lambda row: "no total error" if not row.error_total else "only on other bodies"))
+        left_out(run, rows, why))
     errors = log_limits([row.error_total for row in rows], 1.5)
     width = (PAGE_WIDTH - LEFT - 0.15 - GAP) / IN_ROW
     for k, (panel, own) in enumerate(panels.items()):

@@ -297,6 +297,9 @@ class DisplacedTest(unittest.TestCase):
         for state in (np.full_like(s.state, "open"), s.state):
             wall, = field_drawing.walls_of(replace(s, state=state), 50)
             np.testing.assert_allclose(wall[:, 0], wall[0, 0], atol=1e-12)  # as before it is enlarged
+        # An open edge is a chord of the face from which its gap is measured.
+        chord = replace(s, gap=s.gap - 0.05 * (s.state == "open"))
+        np.testing.assert_allclose(field_drawing.walls_of(chord, 50)[0], wall, atol=1e-12)
         # No point touches it: the enlarged gap where it is least.
         wall, = field_drawing.walls_of(replace(s, state=np.full_like(s.state, "open")), 50)
         self.assertAlmostEqual(wall[0, 0], 11 + 49 * distance.min())

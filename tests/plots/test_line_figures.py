@@ -151,7 +151,8 @@ class DegreesTest(unittest.TestCase):
               ("ring", "ring"))
 
     def levels(self, mesh: str, scene: str, methods: dict[str, int], **cells: object) -> list[dict]:
-        return [made_up.case(f"{mesh}+adapt{level}", method, scene=scene, degree=degree,
+        return [made_up.case(f"{mesh}+adapt{level}" + f"k{degree}" * method.startswith("HYBRID:k="),
+                             method, scene=scene, degree=degree,
                              n_phi=800 * 2**level, adapt_time_s=0.1 * degree * 2**level,
                              error_total=0.3 / 2**(degree * level)) | cells
                 for method, degree in methods.items() for level in range(3)]
@@ -181,6 +182,12 @@ class DegreesTest(unittest.TestCase):
         words = drawn.words_of(drawn.plan(made_up.read(rows), "degrees").figure())
         for name in ("P3", "EXTERNAL:mine", "HYBRID, degree 1", "Meshes: as they are (open, dashed)"):
             self.assertEqual(words.count(name), 1, name)
+
+    def test_meshes_of_another_degrees_loop_have_its_time_and_are_left_out(self) -> None:
+        borrowed = [case | {"mesh": case["mesh"].removesuffix("k2")}
+                    for case in self.levels("Mesh0", "default", {"HYBRID:k=2": 2})]
+        rows = made_up.read(self.levels("Mesh0", "default", {"HYBRID": 1}) + borrowed)
+        self.assertEqual(list(degrees_figure.drawings(rows)), [])
 
     def test_without_a_second_degree_there_is_none(self) -> None:
         for methods in ({"HYBRID": 1}, {"HYBRID": 1, "P2": 1}, {"HYBRID:k=2": 2}):

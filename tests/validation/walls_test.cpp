@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <iostream>
 #include <numbers>
 
 #include "bench/plan/scene_file.hpp"
@@ -171,9 +170,8 @@ TEST(Walls, ARingSlidesAlongItsSocketAsFinerOnesDo) {
   for (const char* method : {"HYBRID", "HYBRID:k=2", "HYBRID:k=3", "HYBRID:k=4"}) {
     const double coarse = spread_of_pressure({scene, ring_segment(2, 24), method}),
                  fine = spread_of_pressure({scene, ring_segment(4, 48), method});
-    std::cout << method << ' ' << coarse << ' ' << fine << '\n';
-    EXPECT_LT(fine, coarse / 2) << method;
-    EXPECT_LT(fine, 0.02) << method;
+    EXPECT_LT(fine, 0.7 * coarse) << method;
+    EXPECT_LT(fine, method == std::string("HYBRID") ? 0.02 : 2e-4) << method;
   }
 }
 
@@ -181,7 +179,6 @@ TEST(Walls, ARoundWallHasNoStrictBoundsAndNoFalseCrossingOfThem) {
   const Scene scene = socket_to_slide_in(29.99);
   for (const char* method : {"HYBRID", "HYBRID:k=2", "HYBRID:k=3", "HYBRID:k=4"}) {
     const ConstitutiveError error = Solved(scene, ring_segment(2, 24), method).recovered_error();
-    std::cout << method << ' ' << error.relative << '\n';
     EXPECT_EQ(error.flaw, "") << method;
     EXPECT_FALSE(error.guaranteed) << method;
     EXPECT_GT(error.relative, 0) << method;

@@ -60,14 +60,18 @@ TEST(LoadStepRuns, APathMayEndUnloaded) {
   Scene lifted;
   lifted.displacement_mm = {0.02, 0};
   lifted.later_steps.resize(2);
-  lifted.later_steps[1].displacement_mm = Eigen::Vector2d(-0.1, 0);
   for (const Method& method : select_methods("HYBRID,P2,3STEPD:CHOLMOD")) {
-    Record record = testing::measured(testing::posed(lifted), method);
-    summarise(record);
-    EXPECT_EQ(record.outcome, "ok") << method.name << ": " << record.status_reason;
-    EXPECT_EQ(record.normal_resultant_N, 0) << method.name;
+    Record record;
+    for (const double end : {-0.1, 0.}) {  // it touches at 0
+      lifted.later_steps[1].displacement_mm = Eigen::Vector2d(end, 0);
+      record = testing::measured(testing::posed(lifted), method);
+      summarise(record);
+      EXPECT_EQ(record.outcome, "ok") << method.name << ": " << record.status_reason;
+      EXPECT_NEAR(record.normal_resultant_N.value_or(1), 0, 1e-9) << method.name;
+    }
     Scene never = lifted;
     never.displacement_mm = {-0.1, 0};
+    never.later_steps[1].displacement_mm = {-0.1, 0};
     record = testing::measured(testing::posed(never), method);
     summarise(record);
     EXPECT_EQ(record.outcome, "unstressed") << method.name << ": " << record.status_reason;
@@ -108,7 +112,8 @@ TEST(LoadStepRuns, TheNoteOnHalvesNamesTheWorstStep) {
                 {"normal_resultant_N", -100.},
                 {"tangential_resultant_N", tangential_N},
                 {"n_stick", stick},
-                {"n_slip", slip}};
+                {"n_slip", slip},
+                {"dissipation_Nmm", 1.}};
   };
   Record record;
   record.steps = {step(10, 15, 0), step(20, 5, 10), step(0, 25, 20)};
@@ -125,6 +130,12 @@ TEST(LoadStepRuns, TheNoteOnHalvesNamesTheWorstStep) {
   note_slip_of_half_steps(record);
   EXPECT_NE(record.status_reason.find("1 of 3 steps end otherwise, step 3 most"), std::string::npos)
       << record.status_reason;
+  record.status_reason.clear();
+  record.steps_in_halves = record.steps;
+  record.steps_in_halves[1]["dissipation_Nmm"] = 2.;
+  note_slip_of_half_steps(record);
+  EXPECT_EQ(record.status_reason,
+            "with every load step in two halves friction dissipates 4 N mm, not 3");
 }
 
 // Without friction nothing is remembered: the last of several equal steps is the single one.
