@@ -14,7 +14,7 @@ const DegreeKernels<Quad>& degree_kernels(int) {
   throw std::logic_error("128 bits: degree 1 only");
 }
 template <>
-DegreeInput<Quad> degree_input(const Problem&, const std::vector<int>&, int) {
+DegreeInput<Quad> degree_input(const Problem&, const std::vector<int>&, int, int) {
   throw std::logic_error("128 bits: degree 1 only");
 }
 
