@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "bench/measure/field_files.hpp"
@@ -171,8 +172,10 @@ void Judge::judge_discretisation(const Method& method, const std::vector<JudgedS
         "the last load step has no stress that it could be relative to";
   } else if (record.error_discretisation.value_or(0) > 1) {
     record.status = Status::inaccurate;
-    record.status_reason = fmt::format("its total error is {:.0f} %: nothing of it is known",
-                                       100 * *record.error_discretisation);
+    record.status_reason = std::isinf(*record.error_discretisation)
+                               ? "it has stress, and the reference has none"
+                               : fmt::format("its total error is {:.0f} %: nothing of it is known",
+                                             100 * *record.error_discretisation);
     return;
   }
   if (method.in_displacements && !record.error_discretisation && record.status_reason.empty())

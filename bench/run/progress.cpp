@@ -78,6 +78,7 @@ void ResultsTable::add(const Record& r) {
   const auto has = [&](const char* field) { return !field_named(field).value(r).is_null(); };
   for (const Column& column : table_columns)
     if (column.field != nullptr && has(column.field)) fields_.insert(column.field);
+  if (worst_error_total(r)) fields_.insert("error_total");  // of a path, whose last step has none
   shows_contact_law_ = shows_contact_law_ || r.study == "contact";
   std::string row;
   for (const Column& column : table_columns) row += column.text(r) + "\t";
