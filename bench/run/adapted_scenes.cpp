@@ -66,7 +66,15 @@ Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
   level.mesh.name = fmt::format("{}+{}{}{}", mesh_name, options.marking == 1. ? "refined" : "adapt",
                                 level.number, degree > 1 ? fmt::format("k{}", degree) : "");
   const std::filesystem::path file = folder / (level.mesh.name + ".msh");
-  write_file_atomically(file, msh_text(level.mesh));
+  const std::string text = msh_text(level.mesh);
+  if (std::error_code error; options.append && !options.resume &&
+                             std::filesystem::exists(file, error) &&
+                             sha256_of_file(file) != sha256_hex(text))
+    throw InputError(
+        fmt::format("{}: the records of that folder have another mesh of this name "
+                    "(allowed: the goal that made it, or another --out)",
+                    file.string()));
+  write_file_atomically(file, text);
   return {{"file", file.string()},         {"number", level.number},
           {"unknowns", level.unknowns},    {"error", level.error ? Json(*level.error) : Json()},
           {"reaches", level.reaches_goal}, {"angle", level.smallest_angle_deg},

@@ -79,6 +79,23 @@ TEST_F(AdaptCommand, DegreesHaveLevelsOfTheirOwnThatCanBeJoined) {
   }
 }
 
+TEST_F(AdaptCommand, AppendingKeepsTheMeshesOfEarlierRecords) {
+  const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o --adapt=";
+  ASSERT_EQ(bench(run + "1000"), 0) << complaint();
+  const auto before = bench_.records();
+  EXPECT_EQ(bench(run + "900 --append"), 2);
+  EXPECT_NE(complaint().find("Mesh0+adapt1.msh: the records of that folder have another mesh of "
+                             "this name"),
+            std::string::npos)
+      << complaint();
+  EXPECT_EQ(bench_.records(), before);
+  for (const Json& record : before)
+    EXPECT_EQ(sha256_of_file(bench_.path("o") / record["mesh_file"].get<std::string>()),
+              record["mesh_sha256"]);
+  EXPECT_EQ(bench("--mesh=Mesh0 --method=P2 --repetitions=1 --out=o --adapt=1000 --append"), 0)
+      << complaint();
+}
+
 TEST_F(AdaptCommand, MergedRunsHaveTheirMeshes) {
   namespace fs = std::filesystem;
   ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=1000 --repetitions=1 --out=o"), 0)
