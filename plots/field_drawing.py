@@ -4,6 +4,7 @@ A body lies as it is, x to the right and y up; a face has its outward normal dow
 """
 from dataclasses import dataclass
 from itertools import groupby
+from math import comb
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,7 +14,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke, withTickedStroke
 from matplotlib.tri import Triangulation
 
-from fields import Fields, chains, halves, largest_shear
+from fields import Fields, chains, largest_shear, parts
 from drawing import SMALLEST_PT
 from words import width_of
 
@@ -83,7 +84,7 @@ def highest_shear(s: Fields) -> float:
 def highest_pressure(s: Fields) -> float:
     """MPa; of 95 % of the contact in pressure."""
     pressure = np.abs(s.traction[..., 0]).ravel()
-    lengths = np.repeat(np.hypot(*(s.edges[:, 1] - s.edges[:, 0]).T), 2)
+    lengths = np.repeat(np.hypot(*(s.edges[:, 1] - s.edges[:, 0]).T), s.state.shape[1])
     pressed = pressure > 0
     return highest_but(pressure[pressed], lengths[pressed], 0.95, 2) if pressed.any() else 0.0
 
@@ -176,8 +177,9 @@ def walls_of(s: Fields, times: float) -> list[np.ndarray]:
     """(points of a face, 2) mm. With p the points, u their displacements, n their normals, g their gaps,
     the wall goes through p + u + g n. It keeps that shape, and is shifted along n by (times - 1) m,
     m the mean of u n over the points that touch it: there the enlarged outline meets it."""
-    thirds = np.array([[2, 1], [1, 2]]) / 3  # gaps are means around these points of an edge
-    at, u = (np.einsum("kc,ecx->ekx", thirds, ends[s.role == "contact"])
+    m = s.state.shape[1]
+    places = np.arange(1, m + 1) / (m + 1)  # gaps are means around these points of an edge
+    at, u = (np.einsum("kc,ecx->ekx", np.stack([1 - places, places], 1), ends[s.role == "contact"])
              for ends in (s.boundary, s.moved))
     normal, gap = s.normal, s.gap[..., None]
     offset = (u * normal).sum(-1, keepdims=True) + gap  # from p to the wall
@@ -233,8 +235,8 @@ def draw_loads(axes: Axes, s: Fields, largest: float) -> None:
 def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:
     """Elements behind a face and its contact points; s as the face sees it, axes with limits set.
 
-    A point is drawn outside the body, a quarter of the edge's length from its end of the edge; the
-    edge's second point a little farther out. Where they would be too small, their states make a band.
+    A point is drawn outside the body, in the middle of its part of the edge; the edge's second point a
+    little farther out. Where they would be too small, their states make a band.
     """
     (left, right), (outside, inside) = axes.get_xlim(), axes.get_ylim()
     x, y = s.triangles[..., 0], s.triangles[..., 1]
@@ -244,8 +246,8 @@ def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:
     if marker_pt < SMALLEST_MARKER_PT:
         draw_states(axes, s, outside)
         return
-    along = 0.75 * s.edges[..., 1] + 0.25 * s.edges[:, ::-1, 1]
-    off = np.broadcast_to(np.array([0.42, 0.75]) * outside, along.shape)
+    along = parts(s.edges[..., 1], s.state.shape[1]).mean(1).reshape(s.state.shape)
+    off = np.broadcast_to(np.linspace(0.42, 0.75, s.state.shape[1]) * outside, along.shape)
     for name in STATE:
         axes.plot(along[s.state == name], off[s.state == name], linestyle="none", **marker(name),
                   markersize=marker_pt, markeredgewidth=0.5)
@@ -257,7 +259,7 @@ def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
 
 
 def draw_states(axes: Axes, s: Fields, outside: float) -> None:
-    place = halves(s.edges[..., 1])
+    place = parts(s.edges[..., 1], s.state.shape[1])
     box, limits = axes.get_window_extent(), axes.get_xlim()
     pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]
     for state, run in runs(s.state):
@@ -269,18 +271,27 @@ def draw_states(axes: Axes, s: Fields, outside: float) -> None:
                       fontsize=SMALLEST_PT)
 
 
+def sampled(values: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """(E, m) Bernstein coefficients -> (E, ...): values at places (...), from 0 to 1."""
+    m = values.shape[1]
+    basis = [comb(m - 1, j) * places**j * (1 - places)**(m - 1 - j) for j in range(m)]
+    return np.tensordot(values, np.array(basis), 1)
+
+
 def draw_traction(axes: Axes, s: Fields) -> None:
-    """Pressure (filled by state) and |friction| (dashed), linear on each edge of a face; a note tells of
+    """Pressure (filled by state) and |friction| (dashed), polynomials on each edge of a face; a note tells of
     pressure beyond the axis."""
-    traction = np.abs(s.traction)
-    p, q = traction[:, :, 0].T
-    x = halves(s.edges[..., 1])
-    y = np.stack([p, (p + q) / 2, (p + q) / 2, q], 1).reshape(-1, 2)
+    pressure, friction = np.moveaxis(np.abs(s.traction), -1, 0)
+    m = pressure.shape[1]
+    samples = 2 if m == 2 else 5
+    of_parts = (np.arange(m)[:, None] + np.linspace(0, 1, samples)) / m
+    x, y = (sampled(values, of_parts).reshape(-1, samples) for values in (s.edges[..., 1], pressure))
     for state, run in runs(s.state):
         axes.fill_between(x[run].ravel(), y[run].ravel(), color=STATE[state]["fill"], linewidth=0)
-    axes.plot(s.edges[..., 1].T, traction[:, :, 0].T, **PRESSURE)
-    axes.plot(s.edges[..., 1].T, traction[:, :, 1].T, **FRICTION)
-    highest = traction[:, :, 0].max()
+    along = np.linspace(0, 1, 2 if m == 2 else 13)
+    for values, style in ((pressure, PRESSURE), (friction, FRICTION)):
+        axes.plot(sampled(s.edges[..., 1], along).T, sampled(values, along).T, **style)
+    highest = pressure.max()
     if highest > max(axes.get_ylim()):
         axes.annotate(f"up to {float(f'{highest:.3g}'):g} MPa", (0.5, 0), xytext=(0, 3),
                       xycoords="axes fraction", textcoords="offset points", ha="center", fontsize=SMALLEST_PT,

@@ -169,7 +169,7 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
                      yticks=[], ylim=(MARKERS / per_mm, (MARKERS - place.strip) / per_mm))
     strip.spines[:].set_color("0.5")
     strip.spines["bottom"].set_visible(False)
-    spacing_pt = 72 * per_mm * (line.along[-1, 1] - line.along[0, 0]) / len(face)
+    spacing_pt = 72 * per_mm * (line.along[-1, 1] - line.along[0, 0]) / (s.state[face].size / 2)
     local = line.seen(s, face, place.strip / per_mm)
     drawing.draw_strip(strip, local, min(MARKER_PT, 0.67 * spacing_pt), scales)
 

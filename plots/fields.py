@@ -1,7 +1,7 @@
 """Reads fields/NAME.{stress,contact,boundary}.csv as `bench --fields` writes them, and checks them.
 
 Lengths in mm, stresses in MPa, forces in N (per mm of thickness).
-T triangles, B boundary edges, P = 2 x (contact edges) contact points.
+T triangles, B boundary edges, E contact edges with m contact points each: 2, for stresses of degree k k + 1.
 """
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -24,6 +24,7 @@ STATES = ("open", "stick", "slip")
 ROLES = ("displacement", "force", "contact")
 BY_LENGTH = "distance along the face from its dot, mm"
 AROUND, MOST_SHOWN = 0.25, 0.75  # of the part of a face that touches; of the face
+MOST_POINTS = 9  # on an edge
 STRAIGHT = 0.999  # cosine of the angle between a straight face and its axis, at least
 
 
@@ -36,17 +37,17 @@ class Fields:
     stress: np.ndarray    # (T, 3, 3, 3) MPa: third, corner; sxx, syy, sxy; linear on a third
     boundary: np.ndarray  # (B, 2, 2) mm: start, end
     role: np.ndarray      # (B,) of ROLES, or "rollers"
-    edges: np.ndarray     # (P/2, 2, 2) mm: contact edges; contact point 2e is the start of edge e
-    traction: np.ndarray  # (P/2, 2, 2) MPa: start, end; normal (pressure < 0), tangential
-    state: np.ndarray     # (P/2, 2) of STATES
+    edges: np.ndarray     # (E, 2, 2) mm: contact edges
+    traction: np.ndarray  # (E, m, 2) MPa: Bernstein coefficients; normal (pressure < 0), tangential
+    state: np.ndarray     # (E, m) of STATES
     mesh: str
     n_phi: int | None     # from the record; None: there is none
     of_face: bool = False  # seen from a face: distance outward and place along it, not x and y
     load: np.ndarray | None = None   # (B, 2, 2) MPa: given traction at start, end; None: unknown
     moved: np.ndarray | None = None  # (B, 2, 2) mm: displacement of start, end
-    normal: np.ndarray | None = None  # (P/2, 2, 2): of the contact points, to the wall
-    gap: np.ndarray | None = None    # (P/2, 2) mm: along it, a mean around the point; NaN: unknown
-    touched: np.ndarray | None = None  # (P/2, 2) the point touches in some load step; None: see state
+    normal: np.ndarray | None = None  # (E, m, 2): of the contact points, to the wall
+    gap: np.ndarray | None = None    # (E, m) mm: along it, a mean around the point; NaN: unknown
+    touched: np.ndarray | None = None  # (E, m) the point touches in some load step; None: see state
 
     @property
     def triangles(self) -> np.ndarray:
@@ -60,7 +61,7 @@ class Fields:
 
     def shown_of(self, face: np.ndarray, line: "Unrolled") -> tuple[float, float]:
         touched = self.state[face] != "open" if self.touched is None else self.touched[face]
-        return part_shown(halves(line.along), touched.ravel())
+        return part_shown(parts(line.along, self.state.shape[1]), touched.ravel())
 
     def faces(self) -> list[np.ndarray]:
         """Numbers of the contact edges, a chain for each face; one around a hole begins where its y is
@@ -157,15 +158,26 @@ class Unrolled:
                        edges=np.stack([np.zeros_like(self.along), self.along], -1))
 
 
-def halves(along: np.ndarray) -> np.ndarray:
-    """(edges, 2) -> (points of the face, 2): start and end of the half edge of each point."""
-    a, b = along.T
-    return np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)
+def parts(along: np.ndarray, m: int) -> np.ndarray:
+    """(edges, 2) -> (points of the face, 2): start and end of the m-th part of its edge around each point."""
+    ends = np.linspace(along[:, 0], along[:, 1], m + 1, axis=1)
+    return np.stack([ends[:, :-1], ends[:, 1:]], -1).reshape(-1, 2)
+
+
+def by_edge(points: np.ndarray) -> np.ndarray | None:
+    """(P, columns of CONTACT) -> (E, m, columns), from start to end of each edge. None: these are no edges."""
+    for m in range(2, MOST_POINTS + 1):
+        if len(points) % m == 0:
+            own = points.reshape(-1, m, points.shape[1])
+            chords = own[:, -1, :2] - own[:, 0, :2]
+            if np.allclose(np.hypot(*chords.T), own[:, 0, 4], rtol=1e-6):
+                return own
+    return None
 
 
 def part_shown(along: np.ndarray, touched: np.ndarray) -> tuple[float, float]:
     """Limits of the part of a face that a picture shows: where its points touch and a little more, if the
-    rest is large. along (P, 2) mm: half edge of each point; touched (P,)."""
+    rest is large. along (P, 2) mm: part of the edge around each point; touched (P,)."""
     start, end = along[0, 0], along[-1, 1]
     if not touched.any():
         return start, end
@@ -267,17 +279,18 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
         raise RecordsError(f"{path['boundary']}: encloses {enclosed:.9g} mm^2; expected the "
                           f"{inside:.9g} mm^2 of the triangles in {path['stress'].name}")
     points, state = read_table(path["contact"], CONTACT, STATES)
-    contact = boundary[role == "contact"]
-    if not np.array_equal(points[:, :2], contact.reshape(-1, 2)):
+    contact, of_edges = boundary[role == "contact"], by_edge(points)
+    if of_edges is None or not np.array_equal(of_edges[:, [0, -1], :2], contact):
         raise RecordsError(f"{path['contact']}: {len(points)} points; expected start and end of "
                           f"each of the {len(contact)} contact edges of {path['boundary'].name}")
     record = records.get(name, {"mesh": name.partition("-")[0], "n_phi": None})
-    half_length = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None] / 2
+    m = of_edges.shape[1]
+    lengths = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None]
     return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
-                  traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
-                  state=state.reshape(-1, 2), mesh=record["mesh"], n_phi=record["n_phi"], load=load,
+                  traction=of_edges[..., 5:7] / (lengths / m),  # F = (L/m) t
+                  state=state.reshape(-1, m), mesh=record["mesh"], n_phi=record["n_phi"], load=load,
                   moved=moved_boundary(results / "fields" / f"{name}.displacement.csv", boundary),
-                  normal=points[:, 2:4].reshape(-1, 2, 2), gap=points[:, 7].reshape(-1, 2))
+                  normal=of_edges[..., 2:4], gap=of_edges[..., 7])
 
 
 def moved_boundary(path: Path, boundary: np.ndarray) -> np.ndarray | None:

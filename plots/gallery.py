@@ -47,9 +47,10 @@ WIDTH, FOOTER, LINE, ROOT = PAGE_WIDTH, 0.62, 0.15, 0.12  # inches: of words, an
 BODY = 5.0  # highest body in its own picture
 STRESS = (r"Colour: the largest shear stress in the plane, "
           r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, "
-          "linear stresses on each third of a triangle, not averaged.")
-FACES = ("{}: contact faces, enlarged and straightened, with elements, states of the points (two per "
+          "linear on each third of a triangle, not averaged.")
+FACES = ("{}: contact faces, enlarged and straightened, with elements, states of the points ({} per "
          "edge), pressure, friction.")
+POINTS = {2: "two", 3: "three", 4: "four", 5: "five"}
 CUT = "Of a face that is open for the most part: where it touches, and a little more."
 WALLS = ("Dashed: the outline with enlarged displacements. A wall keeps its shape: it meets the outline "
          "where the body\ntouches it, on average; elsewhere the enlarged outline may cross it.")
@@ -95,7 +96,8 @@ def heading(solutions: list[Fields], scales: Scales) -> list[str]:
     if touching:
         places = sorted({"next to" if is_tall(s) else "below" for s in touching})
         body = "each body" if len(solutions) > 1 else "the body"
-        lines.append(FACES.format(f"{' or '.join(places).capitalize()} {body}"))
+        points = " or ".join(POINTS[m] for m in sorted({s.state.shape[1] for s in touching}))
+        lines.append(FACES.format(f"{' or '.join(places).capitalize()} {body}", points))
         if any(map(is_cut, touching)):
             lines.append(CUT)
     if touching and scales.times is not None:

@@ -1,6 +1,6 @@
 """Reads fields/NAME.steps.csv and the contact points of every step, as `bench --fields` writes them.
 
-N steps, P contact points of one face in its order, two per edge. Forces in N per mm of thickness.
+N steps, P contact points of one face in its order, m per edge. Forces in N per mm of thickness.
 """
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fields import CONTACT, STATES, chains, halves, part_shown, read_table, unrolled
+from fields import CONTACT, STATES, by_edge, chains, part_shown, parts, read_table, unrolled
 from records import RecordsError
 from words import csv_of
 
@@ -35,7 +35,7 @@ class LoadPath:
     face: int                # which is shown, from 0, of
     faces: int
     axis: str
-    along: np.ndarray        # (P, 2) mm: half edge of each point
+    along: np.ndarray        # (P, 2) mm: part of the edge around each point
     state: np.ndarray        # (N, P) of STATES
     traction: np.ndarray     # (N, P, 2) MPa: pressure > 0, friction on the body along the tangent
 
@@ -85,7 +85,7 @@ def contact_of(results: Path, name: str, step: int) -> tuple[np.ndarray, np.ndar
 def read_path(results: Path, name: str) -> LoadPath | str:
     """The path, or why there is nothing to see; throws RecordsError."""
     table = results / "fields" / f"{name}.steps.csv"
-    numbers, parts = read_table(table, STEPS, PARTS, WITHOUT_RETURNS)
+    numbers, files = read_table(table, STEPS, PARTS, WITHOUT_RETURNS)
     if not np.array_equal(numbers[:, 0], np.arange(len(numbers)) + 1) or len(numbers) == 0:
         raise RecordsError(f"{table}: expected the steps 1, 2, 3 and so on, a row each")
     points = [contact_of(results, name, step) for step in range(1, len(numbers) + 1)]
@@ -97,10 +97,13 @@ def read_path(results: Path, name: str) -> LoadPath | str:
     if not len(first):
         return "no contact points"
     force = np.array([own[:, 5:7] for own, _ in points])
-    edges = first[:, :2].reshape(-1, 2, 2)
+    of_edges = by_edge(first)
+    if of_edges is None:
+        raise RecordsError(f"{table.with_suffix('')}/0001.contact.csv: expected start and end of each contact edge")
+    edges, m = of_edges[:, [0, -1], :2], of_edges.shape[1]
     faces = chains(edges)
-    face = int(np.argmin([force[:, rows_of(own), 0].sum() for own in faces]))  # pressed most
-    chosen = rows_of(faces[face])
+    face = int(np.argmin([force[:, rows_of(own, m), 0].sum() for own in faces]))  # pressed most
+    chosen = rows_of(faces[face], m)
     line = unrolled(edges[faces[face]])
     normals, lengths = first[:, 2:4], first[:, 4]
     tangents = np.stack([-normals[:, 1], normals[:, 0]], 1)
@@ -113,11 +116,11 @@ def read_path(results: Path, name: str) -> LoadPath | str:
     push = -on_body.sum(1) @ np.stack([mean, (-mean[1], mean[0])], 1)
     loads = numbers[:, 11] if numbers.shape[1] > 11 else numbers[:, 0]
     path = LoadPath(
-        name, numbers[:, 0].astype(int), parts == "body", False, push[:, 1], push[:, 0],
+        name, numbers[:, 0].astype(int), files == "body", False, push[:, 1], push[:, 0],
         numbers[:, 3], None if moved is None else moved[:, 1], moved_what, loads.astype(int), face,
-        len(faces), line.axis, halves(line.along),
+        len(faces), line.axis, parts(line.along, m),
         np.array([state for _, state in points])[:, chosen],
-        force[:, chosen] * np.array([-1, 1]) / (lengths[chosen, None] / 2))  # F = (L/2) t
+        force[:, chosen] * np.array([-1, 1]) / (lengths[chosen, None] / m))  # F = (L/m) t
     if moved is None:
         return path
     normal, tangential = np.ptp(moved[path.cycle or slice(None)], axis=0)
@@ -126,9 +129,9 @@ def read_path(results: Path, name: str) -> LoadPath | str:
     return replace(path, is_normal=True, push=push[:, 0], moved=moved[:, 0])
 
 
-def rows_of(edges: np.ndarray) -> np.ndarray:
-    """Rows of the contact points of these edges."""
-    return np.stack([2 * edges, 2 * edges + 1], 1).ravel()
+def rows_of(edges: np.ndarray, m: int) -> np.ndarray:
+    """Rows of the contact points of these edges, m each."""
+    return (m * edges[:, None] + np.arange(m)).ravel()
 
 
 def unit(vector: np.ndarray) -> np.ndarray:

@@ -161,7 +161,7 @@ std::string vtu_of_contact(const ContactPicture& picture) {
   for (const EdgeFrame& frame : picture.frame) normals.push_back(frame.normal);
   std::vector<std::int32_t> states;
   for (const ContactState state : picture.state) states.push_back(static_cast<std::int32_t>(state));
-  VtuGrid grid = {VtuCell::line, picture.at_mm, {}, {}};
+  VtuGrid grid = {VtuCell::poly_line, picture.at_mm, {}, {}, picture.per_edge};
   grid.of_points = vtu_array("F_n_N", F_n) + vtu_array("F_t_N", F_t) +
                    vtu_vectors("normal", normals) + vtu_array("state", states);
   if (!picture.gap_mm.empty()) grid.of_points += vtu_array("gap_mm", picture.gap_mm);
@@ -232,6 +232,7 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
   const ContactPoints& contact = system.contact;
   const bool has_own_points = solution.displacement.cols() == 0;
   ContactPicture picture;
+  picture.per_edge = static_cast<std::size_t>(contact.per_edge);
   for (int p = 0; p < contact.count; ++p) {
     const int row = contact.boundary[p];
     const auto [start, end] = system.problem->mesh.boundary[row].vertices;

@@ -47,7 +47,7 @@ static std::string cells_text(VtuCell cell, std::size_t points, std::size_t corn
 }
 
 std::string vtu_text(const VtuGrid& grid) {
-  const std::size_t points = grid.points.size(), corners = grid.cell == VtuCell::line ? 2 : 3;
+  const std::size_t points = grid.points.size(), corners = grid.per_cell;
   constexpr bool is_little = std::endian::native == std::endian::little;
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"

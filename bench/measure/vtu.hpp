@@ -14,13 +14,14 @@
 
 namespace airybench {
 
-enum class VtuCell : std::uint8_t { line = 3, triangle = 5 };  // VTK's own numbers
+enum class VtuCell : std::uint8_t { poly_line = 4, triangle = 5 };  // VTK's own numbers
 
 // Cells share no points, so that values at points may jump between cells.
 struct VtuGrid {
   VtuCell cell = VtuCell::triangle;
-  std::vector<Eigen::Vector2d> points;  // mm; two per line, three per triangle, cell by cell
+  std::vector<Eigen::Vector2d> points;  // mm, cell by cell
   std::string of_points, of_cells;      // arrays
+  std::size_t per_cell = 3;             // points
 };
 
 std::string base64(std::string_view bytes);

@@ -17,7 +17,7 @@ import field_drawing
 import field_panel
 import gallery
 from case_names import case_name, file_of, words_of_file
-from fields import Fields, unrolled
+from fields import Fields, by_edge, parts, unrolled
 from drawing import PAGE_WIDTH, SMALLEST_PT
 
 STATES = ("open", "slip", "stick", "slip")
@@ -283,6 +283,25 @@ class DisplacedTest(unittest.TestCase):
             self.assertAlmostEqual(field_drawing.enlargement([s]), times, 9)
             self.assertAlmostEqual(field_drawing.enlargement([replace(s, moved=s.moved / 9), s]), times, 9)
         self.assertIsNone(field_drawing.enlargement([replace(s, moved=0 * s.moved)]))
+
+    def test_edges_have_as_many_points_as_stresses_of_their_degree(self) -> None:
+        ends = np.array([[[0, 0], [3, 0]], [[3, 0], [3, 1]], [[7, 7], [4, 3]]])
+        for m in (2, 3, 5):
+            on = np.linspace(ends[:, 0], ends[:, 1], m, axis=1)
+            lengths = np.repeat([3, 1, 5], m)[:, None]
+            points = np.hstack([on.reshape(-1, 2), np.zeros((3 * m, 2)), lengths])
+            np.testing.assert_array_equal(by_edge(points)[:, [0, -1], :2], ends)
+            self.assertIsNone(by_edge(points[1:]))
+        self.assertEqual(by_edge(np.empty((0, 9))).shape, (0, 2, 9))
+        np.testing.assert_allclose(parts(np.array([[0, 3], [3, 4.5]]), 3),
+                                   [[0, 1], [1, 2], [2, 3], [3, 3.5], [3.5, 4], [4, 4.5]])
+
+    def test_control_values_make_a_polynomial(self) -> None:
+        places = np.linspace(0, 1, 7)
+        np.testing.assert_allclose(field_drawing.sampled(np.array([[1, 4.]]), places)[0], 1 + 3 * places)
+        # (1 - s)^2 + 2 s (1 - s) 5 + 3 s^2
+        np.testing.assert_allclose(field_drawing.sampled(np.array([[1, 5, 3.]]), places)[0],
+                                   1 + 8 * places - 6 * places**2)
 
     def test_a_wall_keeps_its_shape_under_a_curved_face(self) -> None:
         """A body pressed by 0.004 mm against the flat wall x = 11, from which its face bends away."""

@@ -17,7 +17,7 @@ try:
 except ImportError:
     sys.exit(77)
 
-TRIANGLE, LINE = 5, 3
+TRIANGLE, POLY_LINE = 5, 4
 STATES = ["open", "stick", "slip"]
 
 
@@ -91,8 +91,12 @@ def check_contact(folder: Path, name: str) -> None:
             sys.exit("contact points of no file")
         return
     same("points", vtk_to_numpy(grid.GetPoints().GetData())[:, :2], columns(csv_rows, "x_mm", "y_mm"))
-    same("types", vtk_to_numpy(grid.GetCellTypesArray()),
-         np.full(grid.GetNumberOfPoints() // 2, LINE))
+    same("types", vtk_to_numpy(grid.GetCellTypesArray()), np.full(grid.GetNumberOfCells(), POLY_LINE))
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())  # each cell is an edge, from end to end
+    ends = columns(csv_rows, "x_mm", "y_mm")[np.stack([offsets[:-1], offsets[1:] - 1])]
+    lengths = columns(csv_rows, "edge_length_mm").ravel()[offsets[:-1]]
+    if not np.allclose(np.hypot(*(ends[1] - ends[0]).T), lengths, rtol=1e-12, atol=0):
+        sys.exit("cells are not edges")
     of_points = arrays_of(grid.GetPointData())
     for key in ("F_n_N", "F_t_N", "gap_mm", "slip_mm"):
         same(key, of_points[key], columns(csv_rows, key).ravel())
