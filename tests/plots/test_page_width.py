@@ -38,8 +38,9 @@ def of_all_kinds() -> list[dict]:
     rows += [made_up.case(f"Mesh0+adapt{level}", "HYBRID", n_phi=900 * 2**level, adapt_level=level,
                           adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**level,
                           time_s=0.02 * 2**level) for level in range(4)]
-    rows += [made_up.case(f"L+adapt{level}", method, scene="L", degree=degree, adapt_time_s=0.1 * 2**level,
-                          error_total=0.1 / 2**(degree * level)) for level in range(4)
+    rows += [made_up.case(f"L+adapt{level}" + "k2" * (degree == 2), method, scene="L", degree=degree,
+                          adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**(degree * level))
+             for level in range(4)
              for method, degree in (("HYBRID", 1), ("HYBRID:k=2", 2), ("P2", 1))]
     rows += [made_up.case(mesh, "ALM:AUTO", stop=stop, time_s=time_s * slower, error_total=error)
              for stop, slower in (("target", 5), ("paper", 1))
