@@ -179,8 +179,9 @@ std::vector<ContactNormals> contact_normals(const Mesh& mesh, const Scene& scene
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
     const EdgeValues values = values_of(mesh, row, scene);
-    const auto [a, middle, b] = points_of(mesh, row);
-    const Eigen::Vector2d m = edge_frame(a, b).normal;
+    const auto [start, end] = mesh.boundary[row].vertices;
+    const Eigen::Vector2d &a = mesh.vertices[start], &b = mesh.vertices[end],
+                          m = edge_frame(a, b).normal;
     const auto at = [&](const Eigen::Vector2d& x) {
       return values.wall ? facing(mesh, row, values).direction_at(x) : m;
     };

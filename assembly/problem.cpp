@@ -70,7 +70,7 @@ std::array<ContactOffset, 3> Problem::offset_coefficients(int boundary_row) cons
 bool Problem::contact_turns() const {
   for (std::size_t row = 0; row < contact_normals.size(); ++row)
     if (mesh.boundary[row].role == BoundaryRole::contact &&
-        contact_normals[row].at(0, 1) != contact_normals[row].at(1, 1))
+        contact_normals[row].at(0, 2) != contact_normals[row].at(2, 2))
       return true;
   return false;
 }

@@ -84,7 +84,7 @@ def highest_shear(s: Fields) -> float:
 def highest_pressure(s: Fields) -> float:
     """MPa; of 95 % of the contact in pressure."""
     pressure = np.abs(s.traction[..., 0]).ravel()
-    lengths = np.repeat(np.hypot(*(s.edges[:, 1] - s.edges[:, 0]).T), s.state.shape[1])
+    lengths = np.repeat(np.hypot(*(s.edges[:, 1] - s.edges[:, 0]).T), s.per_edge)
     pressed = pressure > 0
     return highest_but(pressure[pressed], lengths[pressed], 0.95, 2) if pressed.any() else 0.0
 
@@ -177,7 +177,7 @@ def walls_of(s: Fields, times: float) -> list[np.ndarray]:
     """(points of a face, 2) mm. With p the points, u their displacements, n their normals, g their gaps,
     the wall goes through p + u + g n. It keeps that shape, and is shifted along n by (times - 1) m,
     m the mean of u n over the points that touch it: there the enlarged outline meets it."""
-    m = s.state.shape[1]
+    m = s.per_edge
     places = np.arange(1, m + 1) / (m + 1)  # gaps are means around these points of an edge
     at, u = (np.einsum("kc,ecx->ekx", np.stack([1 - places, places], 1), ends[s.role == "contact"])
              for ends in (s.boundary, s.moved))
@@ -246,8 +246,8 @@ def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:
     if marker_pt < SMALLEST_MARKER_PT:
         draw_states(axes, s, outside)
         return
-    along = parts(s.edges[..., 1], s.state.shape[1]).mean(1).reshape(s.state.shape)
-    off = np.broadcast_to(np.linspace(0.42, 0.75, s.state.shape[1]) * outside, along.shape)
+    along = parts(s.edges[..., 1], s.per_edge).mean(1).reshape(s.state.shape)
+    off = np.broadcast_to(np.linspace(0.42, 0.75, s.per_edge) * outside, along.shape)
     for name in STATE:
         axes.plot(along[s.state == name], off[s.state == name], linestyle="none", **marker(name),
                   markersize=marker_pt, markeredgewidth=0.5)
@@ -259,7 +259,7 @@ def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
 
 
 def draw_states(axes: Axes, s: Fields, outside: float) -> None:
-    place = parts(s.edges[..., 1], s.state.shape[1])
+    place = parts(s.edges[..., 1], s.per_edge)
     box, limits = axes.get_window_extent(), axes.get_xlim()
     pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]
     for state, run in runs(s.state):

@@ -50,6 +50,11 @@ class Fields:
     touched: np.ndarray | None = None  # (E, m) the point touches in some load step; None: see state
 
     @property
+    def per_edge(self) -> int:
+        """m."""
+        return self.state.shape[1]
+
+    @property
     def triangles(self) -> np.ndarray:
         """(T, 3, 2) mm."""
         return self.corners[:, :, 0]
@@ -61,7 +66,7 @@ class Fields:
 
     def shown_of(self, face: np.ndarray, line: "Unrolled") -> tuple[float, float]:
         touched = self.state[face] != "open" if self.touched is None else self.touched[face]
-        return part_shown(parts(line.along, self.state.shape[1]), touched.ravel())
+        return part_shown(parts(line.along, self.per_edge), touched.ravel())
 
     def faces(self) -> list[np.ndarray]:
         """Numbers of the contact edges, a chain for each face; one around a hole begins where its y is

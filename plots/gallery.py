@@ -96,7 +96,7 @@ def heading(solutions: list[Fields], scales: Scales) -> list[str]:
     if touching:
         places = sorted({"next to" if is_tall(s) else "below" for s in touching})
         body = "each body" if len(solutions) > 1 else "the body"
-        points = " or ".join(POINTS[m] for m in sorted({s.state.shape[1] for s in touching}))
+        points = " or ".join(POINTS[m] for m in sorted({s.per_edge for s in touching}))
         lines.append(FACES.format(f"{' or '.join(places).capitalize()} {body}", points))
         if any(map(is_cut, touching)):
             lines.append(CUT)
