@@ -72,17 +72,21 @@ void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
                            " (its groups: " + valid + ")");
 }
 
-// Refuses rollers that are all parallel: an edge holds the rotation and one translation only.
-void check_held(const Mesh& mesh, const std::vector<bool>& rollers) {
+// Refuses rollers of a piece that are all parallel: an edge holds the rotation and one translation
+// only.
+void check_held(const Mesh& mesh, const std::vector<bool>& rollers, const MeshPieces& pieces,
+                int piece) {
   std::optional<Eigen::Vector2d> along;  // direction that the rollers so far leave free
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::displacement) continue;
-    if (!rollers[row]) return;
     const auto [a, b] = mesh.boundary[row].vertices;
+    if (pieces.of_vertex[a] != piece) continue;
+    if (!rollers[row]) return;
     const EdgeFrame frame = edge_frame(mesh.vertices[a], mesh.vertices[b]);
     if (!along) along = frame.tangent;
     if (std::abs(frame.normal.dot(*along)) > straight_roller) return;
   }
+  if (!along) return;  // pose() refuses a piece without displacement edges
   if (along->x() < -straight_roller || (along->x() < straight_roller && along->y() < 0))
     *along *= -1;
   const auto tidy = [](double x) { return std::abs(x) < straight_roller ? 0 : x; };
@@ -135,7 +139,8 @@ void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displace
       return Eigen::Vector2d::Zero();
     };
   if (!rolling) return;
-  check_held(mesh, rollers);
+  const MeshPieces pieces = pieces_of(mesh);
+  for (int piece = 0; piece < pieces.count; ++piece) check_held(mesh, rollers, pieces, piece);
   loads.rollers = std::move(rollers);
 }
 

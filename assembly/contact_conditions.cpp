@@ -82,31 +82,32 @@ struct EdgeGap {
   double clearance_mm = 0;
   Eigen::Vector2d middle = {0, 0};  // middle of the crown
   double curvature = 0;
-  std::optional<ThreePoints> wall;
+  std::optional<ThreePoints> given;  // of a wall or another body, in place of the crown
   Eigen::Vector2d start = {0, 0}, along = {0, 0};  // s = (x − start)·along
 
   double at(const Eigen::Vector2d& x) const {
-    if (!wall) return clearance_mm + (x - middle).squaredNorm() * curvature / 2;
+    if (!given) return clearance_mm + (x - middle).squaredNorm() * curvature / 2;
     const double s = (x - start).dot(along);
-    const auto& [a, m, b] = *wall;
+    const auto& [a, m, b] = *given;
     return clearance_mm + a * (1 - s) * (1 - 2 * s) + 4 * m * s * (1 - s) + b * s * (2 * s - 1);
   }
   bool is_zero() const {
-    return clearance_mm == 0 && curvature == 0 && (!wall || *wall == ThreePoints{0, 0, 0});
+    return clearance_mm == 0 && (given ? *given == ThreePoints{0, 0, 0} : curvature == 0);
   }
 };
 
 }  // namespace
 
-ReachableContact with_reachable_contact(Mesh mesh, const Scene& scene) {
+ReachableContact with_reachable_contact(MatchedFaces faces, const Scene& scene) {
   constexpr double farthest = 100, face_share = 0.05;
+  Mesh& mesh = faces.mesh;
   std::vector<std::vector<GapPiece>> pieces_of_row(mesh.boundary.size());
   const MeshExtent extent = extent_of(mesh);
   const double diameter = std::hypot(extent.width_mm, extent.height_mm);
   std::vector<int> free;
   std::map<std::string, int> met;  // edges that reach their wall, per group
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
-    if (mesh.boundary[row].role != BoundaryRole::contact) continue;
+    if (mesh.boundary[row].role != BoundaryRole::contact || faces.edges[row]) continue;
     const std::string label = boundary_label(mesh, mesh.boundary[row]);
     const EdgeValues values = values_of(mesh, row, scene);
     if (!values.wall) continue;
@@ -134,7 +135,7 @@ ReachableContact with_reachable_contact(Mesh mesh, const Scene& scene) {
   for (const int row : free)
     mesh.boundary[row] = {mesh.boundary[row].vertices, BoundaryRole::force,
                           boundary_group(mesh, out_of_reach)};
-  return {std::move(mesh), std::move(pieces_of_row)};
+  return {std::move(mesh), std::move(faces.edges), std::move(pieces_of_row)};
 }
 
 ContactGap contact_gap(const ReachableContact& contact, const Scene& scene) {
@@ -150,16 +151,21 @@ ContactGap contact_gap(const ReachableContact& contact, const Scene& scene) {
     for (const int row : chain) {
       const EdgeValues values = values_of(mesh, row, scene);
       EdgeGap& gap = gaps[static_cast<std::size_t>(row)];
+      const auto [a, m, b] = points_of(mesh, row);
+      gap.start = a;
+      gap.along = (b - a) / (b - a).squaredNorm();
+      if (const auto& edge = contact.matched[row]) {
+        gap.clearance_mm = edge->clearance_mm;
+        gap.given = edge->gap_mm;
+        continue;
+      }
       gap.clearance_mm = values.clearance_mm;
       gap.middle = middle;
       gap.curvature = curvature;
       if (!values.wall) continue;
-      const auto [a, m, b] = points_of(mesh, row);
       const std::vector<GapPiece>& pieces = contact.pieces[static_cast<std::size_t>(row)];
-      gap.wall = wall_distances(facing(mesh, row, values), pieces);
-      gap.start = a;
-      gap.along = (b - a) / (b - a).squaredNorm();
-      const WallDetail detail = wall_detail(pieces, *gap.wall);
+      gap.given = wall_distances(facing(mesh, row, values), pieces);
+      const WallDetail detail = wall_detail(pieces, *gap.given);
       if (!detail.is_nothing(rounding * (b - a).norm()))
         result.detail[static_cast<std::size_t>(row)] = detail;
     }
@@ -173,7 +179,8 @@ ContactGap contact_gap(const ReachableContact& contact, const Scene& scene) {
   return result;
 }
 
-std::vector<ContactNormals> contact_normals(const Mesh& mesh, const Scene& scene) {
+std::vector<ContactNormals> contact_normals(const ReachableContact& contact, const Scene& scene) {
+  const Mesh& mesh = contact.mesh;
   std::vector<ContactNormals> normals(mesh.boundary.size());
   bool own = true;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
@@ -189,7 +196,8 @@ std::vector<ContactNormals> contact_normals(const Mesh& mesh, const Scene& scene
     for (int n = 1; n <= ContactNormals::most_parts; ++n)
       for (int i = 0; i <= n; ++i) {
         Eigen::Vector2d& normal = normals[static_cast<std::size_t>(row)].at(i, n);
-        normal = at(((n - i) * a + i * b) / n);
+        const auto& matched = contact.matched[row];
+        normal = matched ? matched->normals.at(i, n) : at(((n - i) * a + i * b) / n);
         own &= (normal - m).norm() <= rounding;
       }
   }
@@ -197,12 +205,24 @@ std::vector<ContactNormals> contact_normals(const Mesh& mesh, const Scene& scene
   return normals;
 }
 
-std::vector<double> contact_friction(const Mesh& mesh, const Scene& scene) {
+std::vector<double> contact_friction(const ReachableContact& contact, const Scene& scene) {
+  const Mesh& mesh = contact.mesh;
   std::vector<double> friction(mesh.boundary.size(), 0);
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
     if (mesh.boundary[row].role == BoundaryRole::contact)
-      friction[static_cast<std::size_t>(row)] = values_of(mesh, row, scene).friction;
+      friction[static_cast<std::size_t>(row)] = contact.matched[row]
+                                                    ? contact.matched[row]->friction
+                                                    : values_of(mesh, row, scene).friction;
   return friction;
+}
+
+std::vector<int> opposite_edges(const ReachableContact& contact) {
+  std::vector<int> opposite;
+  for (const std::optional<MatchedEdge>& edge : contact.matched)
+    opposite.push_back(edge ? edge->opposite : Problem::no_row);
+  if (std::ranges::all_of(opposite, [](int row) { return row == Problem::no_row; }))
+    opposite.clear();
+  return opposite;
 }
 
 }  // namespace airybench

@@ -5,6 +5,9 @@
 //
 // F are forces on the body, N; r its displacements less the gap, mm; n points outward. Rows: per
 // point normal, then tangential: none, one, or, in files of problems in space, two.
+//
+// Where two bodies press on each other both have a point, in opposite frames. F is then the same at
+// both, and r the sum of both (paired_points.hpp).
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -25,6 +28,12 @@ struct ContactPoints {
   Eigen::VectorXd gap;           // ḡ, mm, in the order of F_C: per point normal and, where the
                                  // body is moved along the wall, tangential; empty: zero
   std::vector<int> boundary;     // per point: row of Mesh::boundary; empty: no body
+  // Per point: the other body's point that it presses on; no_point: a wall. Empty: walls only.
+  static constexpr int no_point = -1;
+  std::vector<int> opposite;
+  int opposite_of(int point) const {
+    return opposite.empty() ? no_point : opposite[static_cast<std::size_t>(point)];
+  }
   double friction_at(int point) const {
     return friction.empty() ? 0 : friction[static_cast<std::size_t>(point)];
   }

@@ -8,6 +8,41 @@
 #include "assembly/edge_forces.hpp"
 
 namespace airybench {
+namespace {
+
+// Where one node of a pair is prescribed, the other presses on it as on a wall that moves. Where a
+// roller holds one along the face, there is no friction.
+void pair_points(const Problem& problem, const PrescribedDisplacement& prescribed,
+                 ControlPoints& points, std::vector<double>& friction,
+                 std::vector<ContactOffset>& offset) {
+  std::map<int, int> point_of_node;
+  for (int p = 0; p < points.law.count; ++p) point_of_node[points.node[p]] = p;
+  points.law.opposite.assign(static_cast<std::size_t>(points.law.count), ContactPoints::no_point);
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    const int other = problem.opposite_of(row);
+    if (other == Problem::no_row) continue;
+    const std::array<int, 3> nodes = boundary_nodes(problem, row),
+                             others = boundary_nodes(problem, other);
+    const std::array<ContactOffset, 3> of_others = problem.offset_coefficients(other);
+    for (int k = 0; k < 3; ++k) {
+      const auto p = point_of_node.find(nodes[k]), q = point_of_node.find(others[2 - k]);
+      if (p == point_of_node.end()) continue;
+      if (q != point_of_node.end()) {
+        points.law.opposite[p->second] = q->second;
+        if (points.on_roller[p->second] || points.on_roller[q->second])
+          friction[p->second] = friction[q->second] = 0;
+      } else if (prescribed.at[others[2 - k]]) {
+        const Eigen::Vector2d moved = prescribed.u.col(others[2 - k]) + of_others[2 - k].motion_mm;
+        ContactOffset& own = offset[p->second];
+        own.gap_mm = problem.offset_coefficients(row)[k].gap_mm + of_others[2 - k].gap_mm +
+                     points.normal[p->second].dot(moved);
+        own.slid_mm += points.frame(p->second).col(1).dot(moved) + of_others[2 - k].slid_mm;
+      }
+    }
+  }
+}
+
+}  // namespace
 
 ControlPoints control_points(const Problem& problem) {
   ControlPoints points;
@@ -58,6 +93,7 @@ ControlPoints control_points(const Problem& problem) {
     }
   }
   points.law.count = static_cast<int>(points.node.size());
+  if (!problem.opposite.empty()) pair_points(problem, *prescribed, points, friction, offset);
   if (points.law.components == 2) points.law.friction = std::move(friction);
   if (problem.has_gap() ||
       std::ranges::any_of(offset, [](const ContactOffset& own) { return own.gap_mm != 0; })) {

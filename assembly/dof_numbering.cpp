@@ -98,7 +98,7 @@ DofNumbering number_dofs(const Problem& problem, const std::vector<int>& node_po
   dofs.of_vertex.resize(vertices);
   dofs.of_edge.resize(nodes - vertices);
   for (const int node : node_at) {
-    if (node == problem.central_vertex) {
+    if (std::ranges::count(problem.central_vertices, node) > 0) {
       dofs.of_vertex[node] = DofNumbering::gauge;
     } else if (node < vertices) {
       dofs.of_vertex[node] = dofs.count;

@@ -3,8 +3,8 @@
 // The nodes of the graph are the mesh's vertices (three unknowns φ, φ,x, φ,y) and edges (one,
 // ∂φ/∂n); two are joined if they share a triangle. Reverse Cuthill–McKee from a pseudo-peripheral
 // node orders the nodes; the unknowns of a node are consecutive. Affine φ carries no stress, so S
-// has a 3-dimensional kernel. The gauge φ = φ,x = φ,y = 0 at one vertex removes it; these three
-// have no number.
+// has a 3-dimensional kernel per body. The gauge φ = φ,x = φ,y = 0 at one vertex of each removes
+// it; these three have no number.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct DofNumbering {
   static constexpr int gauge = -1;
   std::vector<int> of_vertex;  // the number of φ; φ,x and φ,y follow. gauge: fixed to zero
   std::vector<int> of_edge;    // the number of ∂φ/∂n
-  int count = 0;               // n_φ − 3
+  int count = 0;               // n_φ − 3 per body
 
   // An element's 12 unknowns in the order of hct.hpp, or gauge.
   std::array<int, 12> of_triangle(const Problem& problem, int triangle) const;

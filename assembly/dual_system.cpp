@@ -65,6 +65,16 @@ Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& 
          traction(problem.particular_stress(edge.end[end]), edge.frame.normal);
 }
 
+// The points of an edge that faces another match its points in the other order.
+void pair_points(const Problem& problem, ContactPoints& contact) {
+  std::vector<int> first(problem.mesh.boundary.size(), ContactPoints::no_point);
+  for (int p = 0; p < contact.count; p += contact.per_edge) first[contact.boundary[p]] = p;
+  contact.opposite.assign(static_cast<std::size_t>(contact.count), ContactPoints::no_point);
+  for (int p = 0; p < contact.count; ++p)
+    if (const int row = problem.opposite_of(contact.boundary[p]); row != Problem::no_row)
+      contact.opposite[p] = first[row] + contact.per_edge - 1 - p % contact.per_edge;
+}
+
 }  // namespace
 
 ContactPoints contact_points(const Problem& problem, int degree) {
@@ -87,6 +97,7 @@ ContactPoints contact_points(const Problem& problem, int degree) {
     }
   }
   contact.count = static_cast<int>(contact.boundary.size());
+  if (!problem.opposite.empty()) pair_points(problem, contact);
   contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
   return contact;
 }

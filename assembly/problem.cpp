@@ -16,6 +16,28 @@ void take_out_rigid_motion(Problem& problem) {
   problem.loads.displacement_mm = std::move(split.rest_mm);
 }
 
+std::vector<int> central_vertices(const Problem& problem) {
+  const MeshPieces pieces = pieces_of(problem.mesh);
+  const auto count = static_cast<std::size_t>(pieces.count);
+  std::vector<Eigen::Vector2d> moment(count, Eigen::Vector2d::Zero());
+  std::vector<double> area(count, 0), nearest(count, std::numeric_limits<double>::infinity());
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const int piece = pieces.of_vertex[problem.mesh.triangles[t][0]];
+    area[piece] += problem.area_mm2(t);
+    moment[piece] += problem.area_mm2(t) * problem.vertices_of(t).rowwise().mean();
+  }
+  std::vector<int> central(count, 0);
+  for (int v = 0; v < static_cast<int>(problem.mesh.vertices.size()); ++v) {
+    const int piece = pieces.of_vertex[v];
+    const double distance = (problem.mesh.vertices[v] - moment[piece] / area[piece]).squaredNorm();
+    if (distance < nearest[piece]) {
+      nearest[piece] = distance;
+      central[piece] = v;
+    }
+  }
+  return central;
+}
+
 // Empty without friction.
 std::vector<double> friction_on_contact(const Mesh& mesh, std::vector<double> friction) {
   for (std::size_t row = 0; row < friction.size(); ++row)
@@ -112,7 +134,7 @@ bool same_body(const Problem& a, const Problem& b) {
   if (a.mesh.vertices != b.mesh.vertices || a.mesh.triangles != b.mesh.triangles ||
       a.mesh.triangle_body != b.mesh.triangle_body || a.compliance != b.compliance ||
       !std::ranges::equal(a.mesh.boundary, b.mesh.boundary, alike) ||
-      a.contact_normals != b.contact_normals)
+      a.contact_normals != b.contact_normals || a.opposite != b.opposite)
     return false;
   for (int row = 0; row < static_cast<int>(a.mesh.boundary.size()); ++row)
     if (const EdgeCondition x = a.condition(row), y = b.condition(row);
@@ -140,21 +162,7 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
   problem.edges = number_edges(problem.mesh);
   take_out_rigid_motion(problem);
 
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-  double area = 0;
-  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    area += problem.area_mm2(t);
-    moment += problem.area_mm2(t) * problem.vertices_of(t).rowwise().mean();
-  }
-  const Eigen::Vector2d centroid = moment / area;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (int v = 0; v < static_cast<int>(problem.mesh.vertices.size()); ++v) {
-    const double distance = (problem.mesh.vertices[v] - centroid).squaredNorm();
-    if (distance < nearest) {
-      nearest = distance;
-      problem.central_vertex = v;
-    }
-  }
+  problem.central_vertices = central_vertices(problem);
   return problem;
 }
 
@@ -175,7 +183,8 @@ Problem with_loads(const Problem& problem, Loads loads) {
                  .loads = std::move(loads),
                  .friction = problem.friction,
                  .contact_normals = problem.contact_normals,
-                 .central_vertex = problem.central_vertex};
+                 .opposite = problem.opposite,
+                 .central_vertices = problem.central_vertices};
   take_out_rigid_motion(result);
   return result;
 }

@@ -3,6 +3,8 @@
 //   −div σ = b,  ε(u) = C σ in Ω;   u = u0 on Γ_D;   σn = f on Γ_F;
 //   on Γ_C, with gap g0 along the outward normal and the solution's own σ_n as threshold:
 //     σ_n ≤ 0,  u_n ≤ g0,  σ_n (u_n − g0) = 0;   |σ_t| ≤ −μ σ_n, sliding only at equality, opposed.
+// Where two bodies face each other u is the sum of both sides' displacements, each in its own frame
+// (n, t), g0 that of their gaps, and σ_n, σ_t are the same on both.
 // Parts of Γ_D may be rollers: u_n = n·u0, σ_t = 0.
 //
 // The rigid motion ρ nearest to u0 is taken out: the unknown is w = u − ρ, with u0 − ρ on Γ_D; on
@@ -103,10 +105,16 @@ struct Problem {
   RigidMotion motion = {};                  // ρ
   std::vector<double> friction = {};  // μ ≥ 0 per row of Mesh::boundary, 0 off Γ_C; empty: none
   std::vector<ContactNormals> contact_normals = {};  // per row; empty: the edges' own
+  // Per row: the contact edge of another body that it presses on, walked the other way; none: a
+  // wall. Empty: walls only. Its points match those of this edge, and its frames are opposite.
+  static constexpr int no_row = -1;
+  std::vector<int> opposite = {};
   // Load steps after this one, with the whole u0. Slip is measured from the previous step, so they
   // are posed one by one (load_steps.hpp).
   std::vector<Loads> later_steps = {};
-  int central_vertex = 0;  // nearest to the centroid; origin of φ and of the particular stress
+  // Per piece of the mesh, nearest to its centroid: origin of φ; the first, of the particular
+  // stress.
+  std::vector<int> central_vertices = {0};
 
   const Eigen::Matrix3d& compliance_of(int triangle) const {
     return compliance[mesh.triangle_body[triangle]];
@@ -123,6 +131,9 @@ struct Problem {
     return friction.empty() ? 0 : friction[static_cast<std::size_t>(boundary_row)];
   }
   bool has_friction() const { return !friction.empty(); }
+  int opposite_of(int boundary_row) const {
+    return opposite.empty() ? no_row : opposite[static_cast<std::size_t>(boundary_row)];
+  }
   bool has_gap() const { return loads.gap_mm || !loads.slid_mm.empty() || !motion.is_zero(); }
   WallDetail wall_detail_at(int boundary_row) const {
     return loads.wall_detail.empty() ? WallDetail{}
@@ -165,7 +176,7 @@ struct Problem {
   template <typename Scalar = double>
   Eigen::Vector3<Scalar> particular_stress(
       const std::type_identity_t<Eigen::Vector2<Scalar>>& x) const {
-    const Eigen::Vector2<Scalar> d = x - mesh.vertices[central_vertex].cast<Scalar>();
+    const Eigen::Vector2<Scalar> d = x - mesh.vertices[central_vertices.front()].cast<Scalar>();
     const Eigen::Vector2<Scalar> b = loads.body_force_N_per_mm3.cast<Scalar>();
     return {-b.x() * d.x(), -b.y() * d.y(), Scalar(0)};
   }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "assembly/contact_conditions.hpp"
+#include "assembly/edge_forces.hpp"
 
 namespace airybench {
 namespace {
@@ -40,8 +41,10 @@ auto of_scene(const Scene& scene, const std::string& key, auto change) {
 ReachableContact contact_of(const Scene& scene, Mesh mesh) {
   mesh = of_scene(scene, "mesh", [&] { return transformed(std::move(mesh), scene.mesh); });
   mesh = of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
+  MatchedFaces faces =
+      of_scene(scene, "", [&] { return with_matched_faces(std::move(mesh), scene); });
   return of_scene(scene, "boundary",
-                  [&] { return with_reachable_contact(std::move(mesh), scene); });
+                  [&] { return with_reachable_contact(std::move(faces), scene); });
 }
 
 struct Face {
@@ -50,9 +53,11 @@ struct Face {
   bool is_closed;          // no ends: around a hole, or the whole boundary
 };
 
-std::vector<Face> contact_faces(const Mesh& mesh) {
+std::vector<Face> faces_at_walls(const ReachableContact& contact) {
+  const Mesh& mesh = contact.mesh;
   std::vector<Face> faces;
   for (const auto& chain : boundary_chains(mesh, BoundaryRole::contact)) {
+    if (contact.matched[chain.front()]) continue;
     const auto& start = mesh.vertices[mesh.boundary[chain.front()].vertices[0]];
     const auto& end = mesh.vertices[mesh.boundary[chain.back()].vertices[1]];
     const bool is_closed = start == end;
@@ -89,6 +94,64 @@ void check_geometry(const Scene& scene, const Mesh& mesh, const std::vector<Face
   check_length(scene, "length_mm", scene.length_mm, face.middle.x(), mesh);
   check_length(scene, "root_half_height_mm", scene.root_half_height_mm,
                root_half_height(mesh, face), mesh);
+}
+
+// Every piece must be held, and contact with others must join all.
+void check_pieces(const Scene& scene, const ReachableContact& contact) {
+  const Mesh& mesh = contact.mesh;
+  const MeshPieces pieces = pieces_of(mesh);
+  if (pieces.count == 1) return;
+  const auto piece_of = [&](std::size_t row) {
+    return pieces.of_vertex[mesh.boundary[row].vertices[0]];
+  };
+  std::vector<bool> joined(static_cast<std::size_t>(pieces.count), false), held = joined;
+  joined[0] = true;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
+      held[piece_of(row)] =
+          held[piece_of(row)] || mesh.boundary[row].role == BoundaryRole::displacement;
+      if (!contact.matched[row] || !joined[piece_of(row)]) continue;
+      auto other = joined[piece_of(static_cast<std::size_t>(contact.matched[row]->opposite))];
+      grows |= !other;
+      other = true;
+    }
+  }
+  const auto at = [&](const std::vector<bool>& lacking) {
+    const auto piece = std::ranges::find(lacking, false) - lacking.begin();
+    const auto v = std::ranges::find(pieces.of_vertex, piece) - pieces.of_vertex.begin();
+    return "the piece at the vertex " + shown(mesh.vertices[static_cast<std::size_t>(v)]);
+  };
+  const std::string count = std::to_string(pieces.count) + " separate pieces, ";
+  if (std::ranges::count(joined, false) > 0)
+    fail(scene, "mesh " + mesh.name, count + at(joined),
+         "presses on no other (allowed: one piece, or pieces that contacts join; in Gmsh, "
+         "Coherence or BooleanFragments joins surfaces that touch)");
+  if (std::ranges::count(held, false) > 0)
+    fail(scene, "mesh " + mesh.name, count + at(held),
+         "is held by contact alone (allowed: displacement edges on every piece)");
+}
+
+// Displacement methods have one direction at a node: along the roller, and of the contact law.
+void check_rollers_at_pairs(const Scene& scene, const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  if (problem.opposite.empty() || problem.loads.rollers.empty()) return;
+  std::map<int, Eigen::Vector2d> roller;
+  for (std::size_t row = 0; row < mesh.boundary.size(); ++row)
+    if (problem.loads.rollers[row]) {
+      const auto [a, b] = mesh.boundary[row].vertices;
+      roller[a] = roller[b] = edge_frame(mesh.vertices[a], mesh.vertices[b]).normal;
+    }
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
+    if (problem.opposite_of(row) != Problem::no_row)
+      for (const int end : {0, 1}) {
+        const int v = mesh.boundary[row].vertices[end];
+        const auto found = roller.find(v);
+        if (found != roller.end() &&
+            std::abs(found->second.dot(problem.frame_at(row, end, 1).normal)) > straight_roller)
+          fail(scene, "contacts", "at the vertex " + shown(mesh.vertices[v]),
+               "a roller meets the face obliquely (allowed: at a right angle)");
+      }
 }
 
 std::vector<Eigen::Matrix3d> compliances(const Scene& scene, const Mesh& mesh) {
@@ -132,12 +195,35 @@ void check_loads(const Scene& scene, const std::string& prefix, const BoundaryCo
          "(allowed: finite numbers)");
 }
 
+bool is_paired(const Scene& scene, const std::string& label) {
+  return std::ranges::any_of(scene.contacts,
+                             [&](const ContactPair& pair) { return pair.has(label); });
+}
+
+void check_contacts(const Scene& scene) {
+  for (const ContactPair& pair : scene.contacts) {
+    if (pair.friction && (!(*pair.friction >= 0) || !std::isfinite(*pair.friction)))
+      fail(scene, "contacts: friction", *pair.friction, "(allowed: >= 0)");
+    if (!std::isfinite(pair.clearance_mm))
+      fail(scene, "contacts: clearance_mm", pair.clearance_mm, "(allowed: finite numbers)");
+  }
+  for (const auto& [label, values] : scene.boundary)
+    if (is_paired(scene, label))
+      for (const auto& [key, is_given] :
+           {std::pair("friction", values.contact.friction.has_value()),
+            {"clearance_mm", values.contact.clearance_mm.has_value()},
+            {"wall", values.contact.wall.has_value()}})
+        if (is_given)
+          fail(scene, "boundary: " + label, key,
+               "of a group in contacts (allowed: face; friction and clearance_mm of the pair)");
+}
+
 void check_faces(const Scene& scene) {
   constexpr const char* why = "without a wall (allowed: with one)";
   bool used = scene.wall.has_value();
   for (const auto& [label, values] : scene.boundary) {
     used |= values.contact.wall.has_value();
-    if (values.contact.face && !values.contact.wall && !scene.wall)
+    if (values.contact.face && !values.contact.wall && !scene.wall && !is_paired(scene, label))
       fail(scene, "boundary: " + label, "face", why);
   }
   if (scene.face && !used) fail(scene, "face", "given", why);
@@ -251,6 +337,7 @@ void check_values(const Scene& scene) {
          "(allowed: > 0, or null for a flat wall)");
   of_scene(scene, "", [&] { check_curve("wall", scene.wall); });
   of_scene(scene, "", [&] { check_curve("face", scene.face); });
+  check_contacts(scene);
   check_faces(scene);
   check_loads(scene, "", scene.boundary, scene.clearance_mm, scene.displacement_mm,
               scene.body_force_N_per_mm3);
@@ -261,15 +348,19 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   check_values(scene);
   ReachableContact contact = contact_of(scene, std::move(given_mesh));
   Mesh& mesh = contact.mesh;
-  check_geometry(scene, mesh, contact_faces(mesh));
+  check_geometry(scene, mesh, faces_at_walls(contact));
+  check_pieces(scene, contact);
 
   std::vector<Loads> steps = loads_of_steps(scene, contact);
   std::vector<Eigen::Matrix3d> by_body = compliances(scene, mesh);
-  const std::vector<double> friction = contact_friction(mesh, scene);
-  std::vector<ContactNormals> normals = contact_normals(mesh, scene);
+  const std::vector<double> friction = contact_friction(contact, scene);
+  std::vector<ContactNormals> normals = contact_normals(contact, scene);
+  std::vector<int> opposite = opposite_edges(contact);
   Problem problem =
       make_problem(std::move(mesh), std::move(by_body), std::move(steps.front()), friction);
   problem.contact_normals = std::move(normals);
+  problem.opposite = std::move(opposite);
+  check_rollers_at_pairs(scene, problem);
   problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),
                              std::make_move_iterator(steps.end()));
   return problem;

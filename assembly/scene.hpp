@@ -3,6 +3,8 @@
 // slipping contact points at once.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -20,6 +22,17 @@ struct LoadStep {
   std::optional<Eigen::Vector2d> displacement_mm, body_force_N_per_mm3;
   std::optional<double> clearance_mm;
   BoundaryConditions boundary;  // of these groups; supports stay
+};
+
+// Two faces of different bodies that press on each other (matched_faces.hpp).
+struct ContactPair {
+  std::array<std::vector<std::string>, 2> between;  // labels of each face's groups
+  std::optional<double> friction;                   // none: the scene's
+  double clearance_mm = 0;                          // added to the gap; < 0: an interference
+
+  bool has(const std::string& label) const {
+    return std::ranges::count(between[0], label) + std::ranges::count(between[1], label) > 0;
+  }
 };
 
 struct Scene {
@@ -47,6 +60,7 @@ struct Scene {
   double clearance_mm = 0;                          // added to the gap, ≥ 0
   Eigen::Vector2d displacement_mm = {0.02, 0.006};  // of Γ_D
   BoundaryConditions boundary = {};                 // groups with their own values
+  std::vector<ContactPair> contacts = {};           // their groups meet no wall
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};
 
   // A path: displacements, tractions and body force in this many equal parts (the gap stays), or

@@ -137,19 +137,6 @@ std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides
   return next;
 }
 
-void check_one_piece(const Mesh& mesh, const std::vector<Side>& sides) {
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const Side& side : sides) parent[root(side.low)] = root(side.high);
-  int pieces = 0;
-  for (std::size_t v = 0; v < parent.size(); ++v) pieces += parent[v] == static_cast<int>(v);
-  if (pieces > 1) fail(mesh, std::to_string(pieces) + " separate pieces; the body must be one");
-}
-
 // The vertices of each closed curve of the boundary.
 std::vector<std::vector<int>> boundary_curves(const std::vector<int>& next) {
   std::vector<std::vector<int>> curves;
@@ -168,8 +155,8 @@ std::vector<std::vector<int>> boundary_curves(const std::vector<int>& next) {
 // Triangles that all run counter-clockwise cover a point as often as their boundary winds around
 // it: at most once where its curves are simple and apart and only one runs counter-clockwise, the
 // outer one.
-void check_overlap(const Mesh& mesh, const std::vector<int>& next) {
-  const std::vector<std::vector<int>> curves = boundary_curves(next);
+void check_overlap(const Mesh& mesh, const std::vector<int>& next,
+                   const std::vector<std::vector<int>>& curves) {
   std::vector<std::vector<Eigen::Vector2d>> polygons;
   int outer = 0;
   for (const std::vector<int>& curve : curves) {
@@ -190,6 +177,14 @@ void check_overlap(const Mesh& mesh, const std::vector<int>& next) {
   }
   if (outer > 1)
     fail(mesh, std::to_string(outer) + " outer boundaries; the body must not overlap itself");
+}
+
+void check_overlap(const Mesh& mesh, const std::vector<int>& next) {
+  const MeshPieces pieces = pieces_of(mesh);
+  std::vector<std::vector<std::vector<int>>> curves(static_cast<std::size_t>(pieces.count));
+  for (std::vector<int>& curve : boundary_curves(next))
+    curves[pieces.of_vertex[curve.front()]].push_back(std::move(curve));
+  for (const auto& of_piece : curves) check_overlap(mesh, next, of_piece);
 }
 
 // Three sides per triangle; an inner edge has two.
@@ -229,7 +224,6 @@ void validate(const Mesh& mesh) {
   check_triangles(mesh);
   const std::vector<Side> sides = sorted_sides(mesh);
   const std::vector<int> next = check_boundary(mesh, sides);
-  check_one_piece(mesh, sides);
   check_overlap(mesh, next);
 }
 
@@ -280,8 +274,30 @@ std::vector<std::vector<int>> boundary_chains(const Mesh& mesh, BoundaryRole rol
   return chains;
 }
 
+MeshPieces pieces_of(const Mesh& mesh) {
+  std::vector<int> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    parent[root(a)] = root(b);
+    parent[root(b)] = root(c);
+  }
+  MeshPieces pieces;
+  pieces.of_vertex.resize(mesh.vertices.size());
+  std::vector<int> number(mesh.vertices.size(), -1);
+  for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
+    int& own = number[root(v)];
+    if (own < 0) own = pieces.count++;
+    pieces.of_vertex[v] = own;
+  }
+  return pieces;
+}
+
 int hole_count(const Mesh& mesh) {
-  return 1 - static_cast<int>(mesh.vertices.size()) + edge_count(mesh) -
+  return pieces_of(mesh).count - static_cast<int>(mesh.vertices.size()) + edge_count(mesh) -
          static_cast<int>(mesh.triangles.size());
 }
 

@@ -1,9 +1,9 @@
-// A triangulated plane body with the role of every boundary edge.
+// Triangulated plane bodies with the role of every boundary edge.
 //
 // The boundary is split into three parts, Γ = Γ_D ∪ Γ_F ∪ Γ_C: prescribed displacement, prescribed
-// traction, contact with the rigid foundation. A valid mesh is one piece, with any number of holes:
-// its boundary is one closed curve and another around each hole, which the body has on its left,
-// too.
+// traction, contact with a rigid wall or another body. A valid mesh has one or more pieces that no
+// triangle joins, each with any number of holes: a piece's boundary is one closed curve and another
+// around each hole, which the body has on its left, too.
 #pragma once
 
 #include <Eigen/Core>
@@ -77,11 +77,18 @@ inline constexpr double flat_triangle_tolerance = 1e-13;
 // triangle with a vertex out of range, of (numerically) zero area or clockwise; an edge shared by
 // more than two triangles; a boundary edge that is not on the boundary, given twice, walked against
 // its triangle, or of a group that does not exist; a boundary edge without a role; no displacement
-// edge; more than one piece; a boundary that touches or crosses itself or, around a hole, another
-// one; triangles that overlap.
+// edge; within a piece a boundary that touches or crosses itself or, around a hole, another one;
+// triangles that overlap. Different pieces may touch and overlap.
 void validate(const Mesh& mesh);
 
-// Of a valid mesh, by Euler's formula: vertices − edges + triangles = 1 − holes.
+// Parts that no triangle joins, numbered in the order of their lowest vertices.
+struct MeshPieces {
+  int count = 0;
+  std::vector<int> of_vertex;
+};
+MeshPieces pieces_of(const Mesh& mesh);
+
+// Of a valid mesh, by Euler's formula: vertices − edges + triangles = pieces − holes.
 int hole_count(const Mesh& mesh);
 
 // The edges of a valid mesh.

@@ -91,7 +91,8 @@ void check_is_held(const PlaneModel& model) {
       table_of(model)));
 }
 
-void check_one_piece(const PlaneModel& model) {
+// Pieces may press on each other, if all have contact edges.
+void check_pieces(const PlaneModel& model) {
   std::map<std::size_t, std::size_t> parent;
   const auto root = [&](std::size_t node) {
     while (parent[node] != node) node = parent[node] = parent[parent[node]];
@@ -110,7 +111,12 @@ void check_one_piece(const PlaneModel& model) {
     piece.surfaces.insert(triangle.surface);
     for (const std::size_t node : triangle.nodes) piece.box.extend(model.position.at(node));
   }
-  if (pieces.size() < 2) return;
+  std::set<std::size_t> in_contact;
+  for (const ModelCurve& curve : model.curves)
+    if (const auto label = parse_boundary_label(curve.label);
+        label && label->role == BoundaryRole::contact)
+      for (const Nodes& side : curve.sides) in_contact.insert(root(side[0]));
+  if (pieces.size() < 2 || in_contact.size() == pieces.size()) return;
   std::multimap<int, Piece> by_surface;
   for (auto& [node, piece] : pieces) by_surface.emplace(*piece.surfaces.begin(), piece);
   constexpr std::size_t most = 6;
@@ -123,7 +129,8 @@ void check_one_piece(const PlaneModel& model) {
   fail(
       fmt::format("{} separate pieces, which do not join: {}{}; the body must be one (in Gmsh, "
                   "Coherence or BooleanFragments joins surfaces that touch or overlap; Delete, or "
-                  "a Physical Surface of the others, removes one)",
+                  "a Physical Surface of the others, removes one; or contact edges on every piece, "
+                  "with contacts in the scene)",
                   pieces.size(), fmt::join(texts, "; "), pieces.size() > most ? "; …" : ""));
 }
 
@@ -201,7 +208,7 @@ ConvertedModel convert_model(const std::filesystem::path& file, const ModelOptio
   const PlaneModel model = read_model(file, options, about_to_mesh, converted.notes);
   Mesh& mesh = converted.mesh;
   try {
-    check_one_piece(model);
+    check_pieces(model);
     refuse_misspelt_roles(model);
     check_curves(model);
     check_is_held(model);

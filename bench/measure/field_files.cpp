@@ -225,6 +225,14 @@ std::vector<Eigen::Vector2d> moments_of(const DualSystem& system, const Displace
   });
 }
 
+// Of a pair the sum.
+std::vector<Eigen::Vector2d> between_bodies(const ContactPoints& contact,
+                                            std::vector<Eigen::Vector2d> r) {
+  for (int p = 0; p < contact.count; ++p)
+    if (const int q = contact.opposite_of(p); q > p) r[q] = r[p] += r[q];
+  return r;
+}
+
 }  // namespace
 
 ContactPicture contact_picture(const DualSystem& system, const Solution& solution,
@@ -247,7 +255,8 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
   else
     take_forces_of_displacements(system, solution, picture);
   if (w)
-    for (const Eigen::Vector2d& r : moments_of(system, *w, picture.frame)) {
+    for (const Eigen::Vector2d& r :
+         between_bodies(contact, moments_of(system, *w, picture.frame))) {
       picture.gap_mm.push_back(-r.x());
       picture.slip_mm.push_back(r.y());
     }

@@ -123,6 +123,28 @@ static JsonKey list(const char* name, std::vector<Item>& items, const Item& pres
           }};
 }
 
+static void read(const JsonValue& value, ContactPair& pair) {
+  constexpr const char* allowed = "two groups, or lists of them: [\"contact:a\", \"contact:b\"]";
+  value.object({{"between",
+                 [&](const JsonValue& both) {
+                   if (!both.json.is_array() || both.json.size() != 2) both.fail(allowed);
+                   for (std::size_t side = 0; side < 2; ++side) {
+                     const JsonValue groups = both.item(side);
+                     std::vector<std::string>& labels = pair.between[side];
+                     if (groups.json.is_array() && !groups.json.empty()) {
+                       labels.resize(groups.json.size());
+                       for (std::size_t k = 0; k < labels.size(); ++k)
+                         read(groups.item(k), labels[k]);
+                     } else {
+                       read(groups, labels.emplace_back());
+                     }
+                   }
+                 }},
+                key("friction", pair.friction),
+                key("clearance_mm", pair.clearance_mm)});
+  if (pair.between[0].empty()) value.fail(std::string("between: ") + allowed);
+}
+
 static void read_layers(const JsonValue& value, Scene& scene) {
   Layers& layers = scene.layers;
   value.object({key("normal", layers.normal), whole("count", layers.count, 1, most_layers),
@@ -206,6 +228,7 @@ void read(const JsonValue& value, SceneFile& file) {
                  });
         }},
        key("boundary", scene.boundary),
+       list("contacts", scene.contacts, ContactPair(), "a list of pairs {\"between\": [..., ...]}"),
        {"roles", [&](const JsonValue& v) { read_roles(v, file); }},
        {"length_unit", [&](const JsonValue& v) { read_length_unit(v, file); }},
        key("mesh", scene.mesh),

@@ -35,6 +35,10 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
     return "a path of load steps: other programs are asked for one";
   if (external && method.condenses_contact() && mesh_sizes(body->mesh).contact_edges == 0)
     return "no contact boundary: nothing is left for the program";
+  if (!body->opposite.empty() && external && !method.condenses_contact())
+    return "bodies in contact with each other: other programs get one body, or the condensed law";
+  if (!body->opposite.empty() && !method.joins_bodies)
+    return "bodies in contact with each other: its active sets hold edges at walls only";
   const std::string why = why_no_blocks(*body, method.blocks, method.degree);
   if (why.empty()) return why;
   std::vector<std::string> others;

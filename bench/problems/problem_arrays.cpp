@@ -85,6 +85,8 @@ std::vector<KnownRow> known_rows(const Problem& problem, Known known) {
   std::vector<KnownRow> rows;
   const auto add_edge = [&](int row) {
     const EdgeCondition condition = problem.condition(row);
+    const int other = problem.opposite_of(row);
+    if (known == Known::contact_law && other != Problem::no_row && other < row) return;
     for (const int end : {0, 1}) {
       const EdgeFrame frame = problem.frame_of_moment(row, 1, end);
       const std::array<Eigen::Vector2d, 2> axes =
@@ -177,7 +179,7 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
       }
     }
   }
-  return {
+  std::vector<ProblemArray> arrays = {
       {"triangle_body", "1", "per triangle: row of compliance_per_MPa", body},
       {"compliance_per_MPa", "1/MPa",
        "per body, row by row: (e_xx, e_yy, 2 e_xy) = C (s_xx, s_yy, s_xy), plane strain or stress "
@@ -198,6 +200,14 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
       {"body_force_N_per_mm3", "N/mm^3", "x, y",
        Eigen::MatrixXd(problem.loads.body_force_N_per_mm3)},
   };
+  if (!problem.opposite.empty())
+    arrays.push_back(
+        {"contact_opposite", "1",
+         "per row of boundary: the row of another body that it presses on, walked the "
+         "other way; its gap_mm adds to this one's; -1: a wall",
+         Eigen::MatrixXi(Eigen::Map<const Eigen::VectorXi>(
+             problem.opposite.data(), static_cast<Eigen::Index>(problem.opposite.size())))});
+  return arrays;
 }
 
 std::vector<ProblemArray> contact_law_arrays(const ContactPoints& points) {

@@ -11,6 +11,7 @@
 #include "bench/problems/siconos_text.hpp"
 #include "bench/records/json.hpp"
 #include "bench/verify/reference.hpp"
+#include "solvers/contact/paired_points.hpp"
 #include "support/errors.hpp"
 #include "support/shortened.hpp"
 #ifdef AIRYBENCH_HAS_LIBZIP
@@ -238,7 +239,8 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   ProblemFiles result;
   Exported exported{problem.mesh.name + "/" + posed.scene_name, mesh_arrays(problem.mesh)};
   exported.append(body_arrays(problem));
-  exported.airy = !fclib && why_no_airy.empty();
+  const bool joins_bodies = !problem.opposite.empty();
+  exported.airy = !fclib && why_no_airy.empty() && !joins_bodies;
   if (exported.airy) exported.append(airy_arrays(assemble(posed.body())));
   Json answer = Json::object();
   Reference reference;
@@ -247,11 +249,13 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
     reference = reference_of(points, exported.title);
     answer = {{"F_C_error_estimate", reference.error_estimate},
               {"F_C_natural_map_residual", reference.natural_map_residual}};
-    exported.answer = reference.F_C;
-    exported.append_condensed(reference.condensed, &problem);
+    exported.answer = of_first(points.contact, reference.F_C);
+    exported.append_condensed(joined(reference.condensed), &problem);
   }
   if (!fclib && !exported.airy)
-    result.notes.push_back("only the body and the condensed problem: " + why_no_airy);
+    result.notes.push_back(
+        joins_bodies ? "only the bodies and the condensed problem: they press on each other"
+                     : "only the body and the condensed problem: " + why_no_airy);
   if (!contact) result.notes.emplace_back("no condensed problem: there is no contact");
   if (!problem.later_steps.empty())
     result.notes.push_back(

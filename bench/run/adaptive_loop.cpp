@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "assembly/matched_faces.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/measure/load_step_runs.hpp"
 #include "bench/verify/discretisation_error.hpp"
@@ -203,6 +204,23 @@ BisectedMesh AdaptiveLoop::bisected_as_expected() {
   return finer;
 }
 
+// Where a contact edge has been cut, so is the one that it faces.
+BisectedMesh AdaptiveLoop::cut_opposite_edges(BisectedMesh finer) const {
+  constexpr int most_passes = 20;  // then the edges' triangles are split instead
+  for (int pass = 0; pass < most_passes && !scene_.contacts.empty(); ++pass) {
+    const std::vector<int> rows = with_matched_faces(finer.mesh, scene_).split_rows;
+    if (rows.empty()) break;
+    const MeshEdges edges = number_edges(finer.mesh);
+    std::vector<int> cuts(finer.mesh.triangles.size(), 0);
+    std::vector<bool> is_due(static_cast<std::size_t>(edges.count()), false);
+    for (const int row : rows) is_due[edges.of_boundary[row]] = true;
+    for (std::size_t t = 0; t < cuts.size(); ++t)
+      for (const int edge : edges.of_triangle[t]) cuts[t] |= is_due[edge] ? 1 : 0;
+    finer = bisected(finer.mesh, cuts);
+  }
+  return finer;
+}
+
 bool AdaptiveLoop::refine() {
   BisectedMesh finer;
   if (!settings_.marking)
@@ -211,6 +229,7 @@ bool AdaptiveLoop::refine() {
     finer = marked_and_bisected();
   else
     finer.mesh = uniformly_refined(mesh_);
+  finer = cut_opposite_edges(std::move(finer));
   if (finer.mesh.triangles.size() > most_triangles)
     ended_ = fmt::format("the next mesh would have more than {} triangles", most_triangles);
   else if (finer.mesh.triangles.size() == mesh_.triangles.size())

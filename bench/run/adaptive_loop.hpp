@@ -71,6 +71,7 @@ class AdaptiveLoop {
   bool refine();
   BisectedMesh marked_and_bisected() const;
   BisectedMesh bisected_as_expected();
+  BisectedMesh cut_opposite_edges(BisectedMesh finer) const;
   void judge_progress(AdaptiveLevel& level);
 
   Scene scene_;

@@ -78,8 +78,10 @@ std::vector<ContactState> contact_states(const ContactPoints& contact, const Eig
   return states;
 }
 
-void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
+void note_contact_forces(const ContactPoints& all, const Eigen::VectorXd& F_all,
                          Verification& result) {
+  const ContactPoints contact = joined(all);
+  const Eigen::VectorXd F = of_first(all, F_all);
   const int m = contact.components;
   double normal = 0, tangential = 0;
   for (int p = 0; p < contact.count; ++p) {

@@ -68,7 +68,7 @@ struct ContactTerms {
   double highest_gap, highest_force;  // largest u_n − g0 and F_n; admissible: ≤ 0
 };
 
-// point: the first of an edge.
+// point: the first of an edge. Between bodies u_n and u_t are those of both.
 template <int k>
 ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::VectorXd& F_C,
                            const DisplacementField& u) {
@@ -83,6 +83,16 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
     const EdgeFrame frame = frame_of_coefficient<p>(problem, row, i);
     r[i] = frame.normal.dot(u.col(nodes[i])) - offset[i].along(frame.normal).x();
     u_t[i] = frame.tangent.dot(u.col(nodes[i]) + offset[i].motion_mm) - offset[i].slid_mm;
+  }
+  if (const int other = problem.opposite_of(row); other != Problem::no_row) {
+    const std::array<int, p + 1> across = boundary_nodes<p>(problem, other);
+    const std::array<ContactOffset, p + 1> beyond = offset_coefficients<p>(problem, other);
+    for (int i = 0; i <= p; ++i) {
+      const EdgeFrame frame = frame_of_coefficient<p>(problem, other, p - i);
+      const Eigen::Vector2d w = u.col(across[p - i]);
+      r[i] += frame.normal.dot(w) - beyond[p - i].along(frame.normal).x();
+      u_t[i] += frame.tangent.dot(w + beyond[p - i].motion_mm) - beyond[p - i].slid_mm;
+    }
   }
   EdgeValues<k> normal, tangential{};
   for (int j = 0; j <= k; ++j) {
@@ -204,14 +214,19 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   double highest_gap = 0, highest_force = 0;
   const Eigen::VectorXd compliance = rough_compliance(problem, system.contact);
   for (int point = 0; point < system.contact.count; point += k + 1) {
+    const int row = system.contact.boundary[point], other = problem.opposite_of(row);
+    if (other != Problem::no_row && other < row) continue;  // both sides are one term
     const ContactTerms terms = contact_terms<k>(system, point, F_C, u);
     const double beyond_wall =
         compliance(system.contact.components * point) * terms.beyond_wall_N * terms.beyond_wall_N;
     error.normal_contact_Nmm += terms.normal;
     error.tangential_contact_Nmm += terms.tangential;
     error.beyond_wall_Nmm += beyond_wall;
-    const int edge = problem.edges.of_boundary[system.contact.boundary[point]];
-    error.of_triangle_Nmm[triangle_of_edge[edge]] += terms.normal + terms.tangential + beyond_wall;
+    const std::vector<int> rows =
+        other == Problem::no_row ? std::vector<int>{row} : std::vector<int>{row, other};
+    for (const int side : rows)
+      error.of_triangle_Nmm[triangle_of_edge[problem.edges.of_boundary[side]]] +=
+          (terms.normal + terms.tangential + beyond_wall) / static_cast<double>(rows.size());
     highest_gap = std::max(highest_gap, terms.highest_gap);
     highest_force = std::max(highest_force, terms.highest_force);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "assembly/small_cholesky.hpp"
@@ -130,7 +131,11 @@ struct Barrier {
   double limit;
   double excess(const Eigen::Vector2d& w) const { return normal.dot(w) - limit; }
 };
+// A node at a wall; or a node of one body and its partner of another, for the difference of their
+// displacements.
 struct ContactNode {
+  static constexpr int none = -1;
+  int partner = none;
   std::vector<Barrier> walls;  // one or two
   ContactOffset offset;
   Eigen::Vector2d force = {0, 0};                             // ∫ σn B over Γ_C, N
@@ -144,7 +149,8 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
   const int m = system.contact.components;
   std::map<int, ContactNode> contact;
   for (int point = 0; point < system.contact.count; point += k + 1) {
-    const int row = system.contact.boundary[point];
+    const int row = system.contact.boundary[point], other = problem.opposite_of(row);
+    if (other != Problem::no_row && other < row) continue;
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
     std::array<Eigen::Vector2d, k + 1> force;
     for (int j = 0; j <= k; ++j) {
@@ -152,7 +158,17 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
       const int at = m * (point + j);
       force[j] = F_C(at) * frame.normal + (m == 2 ? F_C(at + 1) : 0) * frame.tangent;
     }
-    const std::array<ContactOffset, p + 1> offset = offset_coefficients<p>(problem, row);
+    std::array<ContactOffset, p + 1> offset = offset_coefficients<p>(problem, row);
+    if (other != Problem::no_row) {
+      const std::array<int, p + 1> partners = boundary_nodes<p>(problem, other);
+      const std::array<ContactOffset, p + 1> beyond = offset_coefficients<p>(problem, other);
+      for (int i = 0; i <= p; ++i) {
+        contact[nodes[i]].partner = partners[p - i];
+        offset[i].gap_mm += beyond[p - i].gap_mm;
+        offset[i].slid_mm += beyond[p - i].slid_mm;
+        offset[i].motion_mm -= beyond[p - i].motion_mm;
+      }
+    }
     const std::array<double, p + 1> lowered = elevated<p>(problem.wall_detail_at(row).lowered_mm);
     for (int i = 0; i <= p; ++i) {
       ContactNode& node = contact[nodes[i]];
@@ -210,7 +226,11 @@ class Constraints {
   std::vector<bool> nodes() const {
     std::vector<bool> nodes = given_.at;
     for (const auto& [node, normal] : given_.normal) nodes[static_cast<std::size_t>(node)] = true;
-    for (const auto& [node, contact] : contact_) nodes[static_cast<std::size_t>(node)] = true;
+    for (const auto& [node, contact] : contact_) {
+      nodes[static_cast<std::size_t>(node)] = true;
+      if (contact.partner != ContactNode::none)
+        nodes[static_cast<std::size_t>(contact.partner)] = true;
+    }
     return nodes;
   }
 
@@ -221,6 +241,10 @@ class Constraints {
     for (const auto& [node, n] : given_.normal)
       w.col(node) += given_.u.col(node) - n * n.dot(w.col(node));
     for (const auto& [number, node] : contact_) {
+      if (node.partner != ContactNode::none) {
+        move_pair(number, node, stiffness, w);
+        continue;
+      }
       if (given_.at[static_cast<std::size_t>(number)]) continue;
       if (const auto roller = given_.normal.find(number); roller != given_.normal.end())
         move_along_roller(roller->second, node.walls, w.col(number));
@@ -230,6 +254,41 @@ class Constraints {
   }
 
  private:
+  // Each takes the part of the change that its stiffness leaves it; along a roller only what takes
+  // both apart.
+  void move_pair(int one, const ContactNode& node, const Eigen::VectorXd& stiffness,
+                 DisplacementField& w) const {
+    const std::array<int, 2> nodes = {one, node.partner};
+    std::array<double, 2> softness{};
+    std::array<std::optional<Eigen::Vector2d>, 2> along;
+    for (const int k : {0, 1}) {
+      if (given_.at[static_cast<std::size_t>(nodes[k])]) continue;
+      softness[k] = 1 / stiffness(nodes[k]);
+      if (const auto roller = given_.normal.find(nodes[k]); roller != given_.normal.end())
+        along[k] = Eigen::Vector2d(-roller->second.y(), roller->second.x());
+    }
+    const double both = softness[0] + softness[1];
+    if (both == 0) return;
+    const auto apart = [&] { return Eigen::Vector2d(w.col(nodes[0]) - w.col(nodes[1])); };
+    if (!along[0] && !along[1]) {
+      const Eigen::Vector2d before = apart(), change = in_contact(node, 1 / both, before) - before;
+      for (const int k : {0, 1}) w.col(nodes[k]) += (k == 0 ? 1 : -1) * softness[k] / both * change;
+      return;
+    }
+    for (const Barrier& wall : node.walls) {
+      std::array<Eigen::Vector2d, 2> way;
+      double yields = 0;
+      for (const int k : {0, 1}) {
+        const Eigen::Vector2d axis = along[k].value_or(wall.normal);
+        way[k] = softness[k] * wall.normal.dot(axis) * axis;
+        yields += wall.normal.dot(way[k]);
+      }
+      if (yields < straight_roller * straight_roller * both) continue;
+      const double excess = std::max(0.0, wall.excess(apart()));
+      w.col(nodes[0]) -= excess / yields * way[0];
+      w.col(nodes[1]) += excess / yields * way[1];
+    }
+  }
   static void move_along_roller(const Eigen::Vector2d& normal, const std::vector<Barrier>& walls,
                                 Eigen::Ref<Eigen::Vector2d> w) {
     const Eigen::Vector2d along(-normal.y(), normal.x());

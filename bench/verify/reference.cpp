@@ -21,19 +21,17 @@ double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
   constexpr int most_steps = 20;
   const Eigen::MatrixXd& D = reference.condensed.D;
   const ContactPoints& contact = reference.condensed.points;
-  ContactPoints without_gap = contact;  // displacement minus gap is r
-  without_gap.gap.resize(0);
   Eigen::VectorXd F = start;
   Refined at_F;
   double error = 0, best = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && F.allFinite(); ++step) {
     refine(system, factor, F, at_F);
     const LongVector u = at_F.u.tail(system.n_c);
-    const Eigen::VectorXd rounded = relative_to_gap(contact, u).cast<double>();
-    const double residual = relative_error(
-        natural_map(without_gap, D.diagonal(), F, rounded).norm(), F.norm(), scale.force_N);
+    const Eigen::VectorXd r = relative_to_gap(contact, u).cast<double>();
+    const double residual =
+        relative_error(natural_map_of(contact, D.diagonal(), F, r).norm(), F.norm(), scale.force_N);
     if (!(residual < best)) break;
-    const Eigen::VectorXd next = active_set_step(D, without_gap, F, rounded);
+    const Eigen::VectorXd next = active_set_step(D, contact, F, r);
     error = next.allFinite() ? relative_error(D_norm(D, next - F), D_norm(D, F), scale.energy_norm)
                              : std::numeric_limits<double>::infinity();
     reference.F_C = F;

@@ -103,12 +103,23 @@ ForcesOnEdge walked(const Problem& problem, const EdgeBalance& balance, int row)
   return a < b ? ForcesOnEdge(sum) : ForcesOnEdge(sum.rowwise().reverse());
 }
 
+// The largest difference of a force and its reaction on another body, N.
+double not_transmitted(const ContactPoints& contact, const Eigen::VectorXd& F) {
+  const int m = contact.components;
+  double largest = 0;
+  for (int p = 0; p < contact.count; ++p)
+    if (const int q = contact.opposite_of(p); q > p)
+      largest =
+          std::max(largest, (F.segment(m * p, m) - F.segment(m * q, m)).cwiseAbs().maxCoeff());
+  return largest;
+}
+
 double equilibrium_residual(const DualSystem& system, const Solution& solution,
                             const EdgeBalance& balance, const LoadScale& scale) {
   const Problem& problem = *system.problem;
   const Mesh& mesh = problem.mesh;
   const int degree = balance.points - 1;
-  double unbalanced = balance.interior;
+  double unbalanced = std::max(balance.interior, not_transmitted(system.contact, solution.F_C));
   std::vector<bool> on_boundary(static_cast<std::size_t>(problem.edges.count()), false);
   int point = 0;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
@@ -308,7 +319,7 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
   const PrescribedDisplacement prescribed = prescribed_displacement(problem);
   for (const auto& [node, n] : prescribed.normal)  // the roller's reaction
     balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
-  double unbalanced = 0;
+  double unbalanced = not_transmitted(control.law, solution.F_C);
   for (std::size_t node = 0; node < prescribed.at.size(); ++node)
     if (!prescribed.at[node])
       unbalanced = std::max(unbalanced, balance.sum.col(node).cwiseAbs().maxCoeff());

@@ -4,9 +4,9 @@
 //   error_stress          ‖σ − σ_ref‖ / ‖σ_ref‖   in the energy norm, ‖σ‖² = ∫ σ:C:σ
 //   error_force           ‖F_C − F_ref‖ / ‖F_ref‖  in the D-norm, ‖F‖² = Fᵀ D F
 //   equilibrium_residual  largest unbalanced force of the stresses (across inner edges, against f
-//                         on Γ_F, against F_C on Γ_C), largest jump of tractions between thirds and
-//                         largest coefficient of ∇·σ + b times the third's area, over the largest
-//                         edge force
+//                         on Γ_F, against F_C on Γ_C, between two bodies), largest jump of
+//                         tractions between thirds and largest coefficient of ∇·σ + b times the
+//                         third's area, over the largest edge force
 //   natural_map_residual  ‖F − P(F − ρ r)‖ / ‖F‖, r from the reference's D and G (coulomb_law.hpp)
 #pragma once
 

@@ -9,6 +9,7 @@
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/contact/paired_points.hpp"
 #include "solvers/contact/proximal_points.hpp"
 #include "solvers/contact/sparse_freedoms.hpp"
 #include "solvers/direct/dense_factors.hpp"
@@ -45,6 +46,11 @@ Eigen::VectorXd step_from(const ContactPoints& contact, const Eigen::VectorXd& D
 
 Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& contact,
                                 const Eigen::VectorXd& F, const Eigen::VectorXd& r) {
+  if (!contact.opposite.empty()) {
+    const contact::Problem one = joined({.D = D, .G = r, .points = contact});
+    return at_both(contact,
+                   active_set_step(one.D, one.points, of_first(contact, F), of_first(contact, r)));
+  }
   const int m = contact.components;
   const Eigen::VectorXd diagonal = D.diagonal();
   const auto solve = [&](const std::vector<Freedom>& freedoms, const Eigen::VectorXd& rest) {

@@ -12,6 +12,7 @@
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/contact/paired_points.hpp"
 
 namespace airybench {
 
@@ -36,6 +37,13 @@ ContactResult solve_contact(const contact::Problem& problem, const ContactOption
   if (options.start.size() != 0 && options.start.size() != size)
     throw std::invalid_argument("ContactOptions::start: " + std::to_string(options.start.size()) +
                                 " contact forces (allowed: none or " + std::to_string(size) + ")");
+  if (!problem.points.opposite.empty()) {
+    ContactOptions of_joined = options;
+    if (options.start.size() > 0) of_joined.start = of_first(problem.points, options.start);
+    ContactResult result = solve_contact(joined(problem), of_joined, deadline);
+    result.F_C = at_both(problem.points, result.F_C);
+    return result;
+  }
   if (options.by) return options.by(problem);
   switch (options.solver) {
     case ContactSolver::newton:

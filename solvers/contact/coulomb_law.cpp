@@ -138,7 +138,7 @@ Eigen::Vector3d solve_coulomb_law(const Eigen::Matrix3d& D, const Eigen::Vector3
 
 Eigen::VectorXd trial_forces(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                              const Eigen::VectorXd& F, const Eigen::VectorXd& r) {
-  Eigen::VectorXd trial = F - r.cwiseQuotient(D_diagonal);
+  Eigen::VectorXd trial = F - r.cwiseQuotient(sums_of_pairs(contact, D_diagonal));
   if (contact.components != 3) return trial;
   for (int t = 1; t < trial.size(); t += 3)
     trial.segment<2>(t) = F.segment<2>(t) - r.segment<2>(t) / D_diagonal.segment<2>(t).mean();
@@ -147,7 +147,11 @@ Eigen::VectorXd trial_forces(const ContactPoints& contact, const Eigen::VectorXd
 
 Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                             const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement) {
-  const Eigen::VectorXd r = relative_to_gap(contact, displacement);
+  return natural_map_of(contact, D_diagonal, F_C, relative_to_gap(contact, displacement));
+}
+
+Eigen::VectorXd natural_map_of(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
+                               const Eigen::VectorXd& F_C, const Eigen::VectorXd& r) {
   return F_C - project_on_coulomb(contact, trial_forces(contact, D_diagonal, F_C, r));
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 
 #include "assembly/contact_problem.hpp"
+#include "solvers/contact/paired_points.hpp"
 
 namespace airybench {
 
@@ -30,20 +32,28 @@ Eigen::Vector2d project_on_coulomb(const Eigen::Vector2d& F, double mu);
 Eigen::VectorXd project_on_coulomb(const ContactPoints& contact, Eigen::VectorXd F);
 void project_in_place(const ContactPoints& contact, Eigen::Ref<Eigen::VectorXd> F);
 
-// r = ū_C − ḡ, in the precision of ū_C.
+// ū_C − ḡ of every body, in the precision of ū_C.
 template <typename Vector>
-Vector relative_to_gap(const ContactPoints& contact, Vector displacement) {
+Vector less_gap(const ContactPoints& contact, Vector displacement) {
   if (contact.gap.size() > 0) displacement -= contact.gap.template cast<typename Vector::Scalar>();
   return displacement;
 }
+// r: of a pair the sum, at both points.
+template <typename Vector>
+Vector relative_to_gap(const ContactPoints& contact, Vector displacement) {
+  return sums_of_pairs(contact, less_gap(contact, std::move(displacement)));
+}
 
-// F − ρ r, N, with ρ_n = 1/D_nn and ρ_t = 1/D_tt, in space with the mean of both D_tt: one ρ_t
-// keeps the direction of r_t.
+// F − ρ r, N, with ρ_n = 1/D_nn and ρ_t = 1/D_tt, of a pair the sum of both, in space the mean of
+// both D_tt: one ρ_t keeps the direction of r_t.
 Eigen::VectorXd trial_forces(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                              const Eigen::VectorXd& F, const Eigen::VectorXd& r);
 
-// F − P(F − ρ r) at every point: zero exactly when the law holds; N. displacement: ū_C. Vectors are
-// in the rows of F_C.
+// F − P(F − ρ r) at every point: zero exactly when the law holds; N. Vectors are in the rows of
+// F_C.
+Eigen::VectorXd natural_map_of(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
+                               const Eigen::VectorXd& F_C, const Eigen::VectorXd& r);
+// displacement: ū_C.
 Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                             const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement);
 // Its norm over ‖F_C‖; where F_C = 0 its norm.

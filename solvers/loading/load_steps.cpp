@@ -109,11 +109,10 @@ std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const So
   slid.resize(problem.mesh.boundary.size(), {0, 0, 0});
   if (answer.displacement.cols() > 0) {
     const ControlPoints points = control_points(problem);
-    add_of_control_points(problem, points, relative_to_gap(points.law, answer.contact_displacement),
-                          slid);
+    add_of_control_points(problem, points, less_gap(points.law, answer.contact_displacement), slid);
   } else {
-    add_of_contact_points(system.contact,
-                          relative_to_gap(system.contact, answer.contact_displacement), slid);
+    add_of_contact_points(system.contact, less_gap(system.contact, answer.contact_displacement),
+                          slid);
   }
   return slid;
 }
@@ -123,7 +122,7 @@ double dissipation_Nmm(const DualSystem& system, const Solution& answer) {
   if (!problem.has_friction() || answer.contact_displacement.size() == 0) return 0;
   const ContactPoints law =
       answer.displacement.cols() > 0 ? control_points(problem).law : system.contact;
-  const Eigen::VectorXd slip = relative_to_gap(law, answer.contact_displacement);
+  const Eigen::VectorXd slip = less_gap(law, answer.contact_displacement);
   double work = 0;
   for (int p = 0; p < law.count; ++p) work -= answer.F_C(2 * p + 1) * slip(2 * p + 1);
   return work;

@@ -169,6 +169,7 @@ Method hybrid_cg() {
           .family = "HYBRID:CG",
           .summary = "hybridized equilibrium elements, two-level Krylov iteration, active sets",
           .blocks = Blocks::contact_points,
+          .joins_bodies = false,
           .stages = {Stage::precondition, Stage::order, Stage::factor, Stage::contact,
                      Stage::recover, Stage::check},
           .solve = solve_hybridized_cg,

@@ -21,13 +21,14 @@ void subtract_transposed(const SparseRows& C, const Eigen::Ref<const Eigen::Vect
 }
 
 // Z = P(v): F, and the forces that the contact law allows next to v + ḡ/R.
-void allowed_forces(const DualSystem& system, const Eigen::VectorXd& shift,
-                    const Eigen::VectorXd& v, Eigen::VectorXd& Z) {
+void allowed_forces(const DualSystem& system, const Eigen::VectorXd& R,
+                    const Eigen::VectorXd& shift, const Eigen::VectorXd& v, Eigen::VectorXd& Z) {
   if (system.F.size() > 0)
     Z.head(system.n_f()) = system.F;
   else
     Z.head(system.n_f()).setZero();
   Z.tail(system.n_c()) = v.tail(system.n_c()) + shift;
+  set_means_of_pairs(system.contact, R.tail(system.n_c()), Z.tail(system.n_c()));
   project_in_place(system.contact, Z.tail(system.n_c()));
 }
 
@@ -54,7 +55,7 @@ struct Iterate {
   void evaluate(const DualSystem& system, PenalisedFactor& penalised) {
     const int n_f = system.n_f(), n_c = system.n_c();
     const Eigen::VectorXd& R = penalised.R;
-    allowed_forces(system, shift, v, Z);
+    allowed_forces(system, R, shift, v, Z);
     lambda = R.cwiseProduct(v - Z) - R.cwiseProduct(Z);
     if (system.F0.size() > 0) lambda.tail(n_c) += R.tail(n_c).cwiseProduct(system.F0);
     if (system.q.size() > 0)
@@ -68,7 +69,7 @@ struct Iterate {
     forces.tail(n_c).noalias() = system.C_C * x;
     if (system.F0.size() > 0) forces.tail(n_c) += system.F0;
     g = forces + v - Z;
-    allowed_forces(system, shift, g, next);
+    allowed_forces(system, R, shift, g, next);
     lambda = R.cwiseProduct(g - next);
     force_scale = std::max(force_scale, std::hypot(forces.norm(), system.F.norm()));
     contact_scale = std::max(contact_scale, forces.tail(n_c).norm());

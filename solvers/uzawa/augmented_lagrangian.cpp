@@ -101,6 +101,8 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
     change = F_C;
     F_C = contact + it.lambda_c.col(k) / a.r_C;
     if (system.contact.gap.size() > 0) F_C += system.contact.gap / a.r_C;
+    if (!system.contact.opposite.empty())
+      set_means_of_pairs(system.contact, Eigen::VectorXd::Ones(system.n_c()), F_C);
     project_in_place(system.contact, F_C);
     change -= F_C;
     moved = a.r_C * change.norm();

@@ -23,7 +23,7 @@ Eigen::VectorXd interpolate(const DualSystem& system,
                             const std::function<double(const Eigen::Vector2d&)>& phi,
                             const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& slope) {
   const Problem& problem = *system.problem;
-  const Eigen::Vector2d x0 = problem.mesh.vertices[problem.central_vertex];
+  const Eigen::Vector2d x0 = problem.mesh.vertices[problem.central_vertices.front()];
   const double phi0 = phi(x0);
   const Eigen::Vector2d slope0 = slope(x0);
   Eigen::VectorXd x(system.n());

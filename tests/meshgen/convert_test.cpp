@@ -349,7 +349,9 @@ TEST_F(Convert, RefusesWhatIsWrongWithAModelInOneLine) {
            "Physical Surface(\"steel\") += {2};\n",
        "2 separate pieces, which do not join: surface 1 from (0, 0) to (4, 4); surface 2 from (9, "
        "1) to (10, 2); the body must be one (in Gmsh, Coherence or BooleanFragments joins surfaces "
-       "that touch or overlap; Delete, or a Physical Surface of the others, removes one)"},
+       "that touch or overlap; Delete, or a Physical Surface of the others, removes one; or "
+       "contact "
+       "edges on every piece, with contacts in the scene)"},
       {"filled_hole.geo",
        two_loops("1") + "Plane Surface(1) = {1, 2}; Plane Surface(2) = {2};\n" +
            "Physical Surface(\"plug\") = {2};\n",

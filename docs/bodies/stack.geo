@@ -1,0 +1,22 @@
+// Three blocks on one another, each between rollers at its left side.
+DefineConstant[ h = 2 ];
+Point(1) = {0, 0, 0, h};   Point(2) = {20, 0, 0, h};   Point(3) = {20, 6, 0, h};   Point(4) = {0, 6, 0, h};
+Line(1) = {1, 2};  Line(2) = {2, 3};  Line(3) = {3, 4};  Line(4) = {4, 1};
+Curve Loop(1) = {1 : 4};  Plane Surface(1) = {1};
+Point(5) = {0, 6, 0, h/1.7};  Point(6) = {14, 6, 0, h/1.7};  Point(7) = {14, 11, 0, h/1.3};  Point(8) = {0, 11, 0, h/1.3};
+Line(5) = {5, 6};  Line(6) = {6, 7};  Line(7) = {7, 8};  Line(8) = {8, 5};
+Curve Loop(2) = {5 : 8};  Plane Surface(2) = {2};
+Point(9) = {0, 11, 0, h/2.3};  Point(10) = {8, 11, 0, h/2.3};  Point(11) = {8, 17, 0, h};  Point(12) = {0, 17, 0, h};
+Line(9) = {9, 10};  Line(10) = {10, 11};  Line(11) = {11, 12};  Line(12) = {12, 9};
+Curve Loop(3) = {9 : 12};  Plane Surface(3) = {3};
+Physical Curve("displacement:floor") = {1};
+Physical Curve("displacement:left") = {8};
+Physical Curve("displacement:top") = {11};
+Physical Curve("contact:first") = {3};
+Physical Curve("contact:second_below") = {5};
+Physical Curve("contact:second_above") = {7};
+Physical Curve("contact:third") = {9};
+Physical Curve("force") = {2, 4, 6, 10, 12};
+Physical Surface("first") = {1};
+Physical Surface("second") = {2};
+Physical Surface("third") = {3};
