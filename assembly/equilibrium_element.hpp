@@ -33,7 +33,8 @@
 // 1/(1 − 2ν) for ν → ½. Where these are many, S is factorised by its root, S = MᵀM, M = QR
 // (SmallCholesky::of_root), which loses half of them.
 //
-// Templates over the scalar are instantiated for double and long double.
+// Templates over the scalar are instantiated for double and long double; packs of doubles use the
+// constant matrices in double.
 #pragma once
 
 #include <array>
@@ -69,6 +70,14 @@ struct ReferenceElement {
   Matrix forces;                      // T̂ᵀ, outer modes × (per edge and control value x, y)
 };
 
+// Their entries, as plain data: kernels of several instruction sets share no code for doubles.
+template <typename Scalar>
+struct ReferenceMatrices {
+  const Scalar *stress[3], *mass_root, *weighted[3], *flexibility[6], *forces;
+};
+template <typename Scalar, int k>
+const ReferenceMatrices<Scalar>& reference_matrices();  // computed at the first call
+
 template <typename Scalar, int k>
 class EquilibriumElement {
  public:
@@ -77,6 +86,7 @@ class EquilibriumElement {
   using OnEdges = Eigen::Matrix<Scalar, Degree::size, 1>;  // per edge and control value x, y
   // Rows: xx, yy, xy in MPa; columns: Bernstein coefficients, third by third.
   using Stress = Eigen::Matrix<Scalar, 3, Degree::coefficients>;
+  using Root = Eigen::Matrix<Scalar, Degree::outer, Degree::size, Eigen::RowMajor>;
 
   enum class Factor { by_condition, of_product, of_root };  // of S
 
@@ -87,10 +97,18 @@ class EquilibriumElement {
 
   // K, N/mm: forces of the edges' displacements. Positive semidefinite to rounding.
   Stiffness stiffness() const;
-  // f, N, with F = K ū + f for the total stress under a particular one, σ_p.
+  // R = L⁻¹ Tᵀ, and K = RᵀR: its lower triangle by columns.
+  Root root() const;
+  static void square(const Root& R, Scalar* lower);
+  // f, N, with F = K ū + f for the total stress under a particular one, σ_p: F of σ_p, less Rᵀ
+  // times the outer modes' share.
   OnEdges load(const Stress& particular) const;
-  // The total stress of edges displaced by ū, mm: σ_p plus modes.
-  Stress stress(const OnEdges& displacement, const Stress& particular = Stress::Zero()) const;
+  Eigen::Matrix<Scalar, Degree::outer, 1> outer_load(const Stress& particular) const;
+  // The total stress of edges displaced by ū, mm: modes, and σ_p.
+  Stress stress(const OnEdges& displacement) const { return of_modes(work_of(displacement)); }
+  Stress stress(const OnEdges& displacement, const Stress& particular) const {
+    return particular + of_modes(work_of(displacement) - modes_load(particular));
+  }
 
   // g = Tᵀ ū − ∫ σ(modes):C:σ is zero for the total stress σ that ū makes, but for rounding. The
   // correction S⁻¹ g of the modes has these forces, N, and the energy gᵀ S⁻¹ g, N mm.
@@ -107,26 +125,26 @@ class EquilibriumElement {
 
   // Smallest sine between a mode and those before it, in S's scalar product. Below a few roundings
   // S is not positive definite; NaN: data are not finite.
-  Scalar independence() const { return independence_; }
+  Scalar independence() const { return flexibility_.independence(); }
 
  private:
   using Modes = Eigen::Matrix<Scalar, Degree::modes, 1>;
   using Components = Eigen::Matrix<Scalar, Degree::coefficients, 3>;  // Stress, transposed
-  using Root = Eigen::Matrix<Scalar, Degree::outer, Degree::size, Eigen::RowMajor>;
-  static const ReferenceElement<Scalar>& reference();  // computed at the first call
+  static const ReferenceMatrices<Constant<Scalar>>& reference() {
+    return reference_matrices<Constant<Scalar>, k>();
+  }
   void factorise_root();
   void factorise_product(const Eigen::Matrix3<Scalar>& compliance_in_tau);
-  Factor suitable_factor(const Eigen::Matrix3<Scalar>& compliance_in_tau) const;
-  Root root() const;                                 // R = L⁻¹ Tᵀ: K = RᵀR
+  void factorise_by_condition(const Eigen::Matrix3<Scalar>& compliance_in_tau);
   Modes modes_load(const Stress& particular) const;  // ∫ σ(modes) : C : σ_p
   Modes work_of(const OnEdges& displacement) const;  // Tᵀ ū
+  Stress of_modes(Modes work) const;                 // that of the modes S⁻¹ work
 
   Eigen::Matrix2<Scalar> B_;
   Scalar determinant_;
   Eigen::Matrix3<Scalar> to_stress_;   // (xx, yy, xy) of τ̂ → σ
   Eigen::Matrix3<Scalar> compliance_;  // C
   SmallCholesky<Scalar, Degree::modes> flexibility_;
-  Scalar independence_;
 };
 
 // Bernstein coefficients, as columns of EquilibriumElement::Stress, of a linear stress from its
@@ -134,5 +152,11 @@ class EquilibriumElement {
 template <int k, typename Scalar>
 typename EquilibriumElement<Scalar, k>::Stress linear_stress(
     const Eigen::Matrix3<Scalar>& at_vertices);
+
+#define AIRYBENCH_INSTANTIATED(k)                                                   \
+  extern template const ReferenceMatrices<double>& reference_matrices<double, k>(); \
+  extern template const ReferenceMatrices<long double>& reference_matrices<long double, k>();
+AIRYBENCH_STRESS_DEGREES(AIRYBENCH_INSTANTIATED)
+#undef AIRYBENCH_INSTANTIATED
 
 }  // namespace airybench

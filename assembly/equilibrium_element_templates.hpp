@@ -155,9 +155,18 @@ ReferenceElement<Scalar>::ReferenceElement(int k) {
 }
 
 template <typename Scalar, int k>
-const ReferenceElement<Scalar>& EquilibriumElement<Scalar, k>::reference() {
+const ReferenceMatrices<Scalar>& reference_matrices() {
   static const ReferenceElement<Scalar> element(k);
-  return element;
+  static const ReferenceMatrices<Scalar> matrices = [] {
+    ReferenceMatrices<Scalar> data;
+    for (int c = 0; c < 3; ++c) data.stress[c] = element.stress[c].data();
+    data.mass_root = element.mass_root.data();
+    for (int c = 0; c < 3; ++c) data.weighted[c] = element.weighted[c].data();
+    for (int m = 0; m < 6; ++m) data.flexibility[m] = element.flexibility[m].data();
+    data.forces = element.forces.data();
+    return data;
+  }();
+  return matrices;
 }
 
 template <typename Scalar, int k>
@@ -171,25 +180,32 @@ EquilibriumElement<Scalar, k>::EquilibriumElement(const TriangleVerticesFor<Scal
   to_stress_ = equilibrium_formulas::stress_map(B_, determinant_);
   const Eigen::Matrix3<Scalar> strain = compliance_.lazyProduct(to_stress_) * determinant_;
   const Eigen::Matrix3<Scalar> c = to_stress_.transpose().lazyProduct(strain);  // in τ̂
-  if (factor == Factor::by_condition) factor = suitable_factor(c);
   if (factor == Factor::of_root)
     factorise_root();
-  else
+  else if (factor == Factor::of_product)
     factorise_product(c);
+  else
+    factorise_by_condition(c);
 }
 
 // With λ1 ≥ λ2 ≥ λ3 of the compliance c in τ̂, tr c ≥ λ1 and the sum of its 2 × 2 minors ≥ λ1 λ2:
 // their product over det c = λ1 λ2 λ3 is at least the condition, λ1/λ3, at most 9 times as much.
-// The map from τ̂ has the determinant 1. More than the limit loses more than 1e-12.
+// The map from τ̂ has the determinant 1. More than the limit loses more than 1e-12. Elements of a
+// pack get the factors that each gets by itself.
 template <typename Scalar, int k>
-typename EquilibriumElement<Scalar, k>::Factor EquilibriumElement<Scalar, k>::suitable_factor(
-    const Eigen::Matrix3<Scalar>& c) const {
+void EquilibriumElement<Scalar, k>::factorise_by_condition(const Eigen::Matrix3<Scalar>& c) {
   const SmallCholesky<Scalar, 3> of_compliance(compliance_);
   const Scalar pivots = of_compliance.L().diagonal().prod();
   const Scalar determinant = pivots * pivots * determinant_ * determinant_ * determinant_;
   const Scalar minors = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1) + c(0, 0) * c(2, 2) -
                         c(0, 2) * c(0, 2) + c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
-  return c.trace() * minors < Scalar(5000) * determinant ? Factor::of_product : Factor::of_root;
+  const auto well_conditioned = c.trace() * minors < Scalar(5000) * determinant;
+  if (!any(well_conditioned)) return factorise_root();
+  factorise_product(c);
+  if (all(well_conditioned)) return;
+  const auto of_product = flexibility_;
+  factorise_root();
+  flexibility_ = flexibility_.chosen(well_conditioned, of_product, flexibility_);
 }
 
 template <typename Scalar, int k>
@@ -200,60 +216,66 @@ void EquilibriumElement<Scalar, k>::factorise_root() {
       of_compliance.L().transpose().lazyProduct(to_stress_) * sqrt(determinant_);
   constexpr int rows = Degree::coefficients;
   Eigen::Matrix<Scalar, 3 * rows, Degree::modes> M;
-  const auto& weighted = reference().weighted;
-  for (int mode = 0; mode < Degree::modes; ++mode)
+  for (int mode = 0; mode < Degree::modes; ++mode) {
+    const Constant<Scalar>* weighted[3];
+    for (int c = 0; c < 3; ++c) weighted[c] = reference().weighted[c] + rows * mode;
     for (int a = 0; a < 3; ++a)
       for (int i = 0; i < rows; ++i)
-        M(a * rows + i, mode) = R(a, 0) * weighted[0](i, mode) + R(a, 1) * weighted[1](i, mode) +
-                                R(a, 2) * weighted[2](i, mode);
+        M(a * rows + i, mode) =
+            R(a, 0) * weighted[0][i] + R(a, 1) * weighted[1][i] + R(a, 2) * weighted[2][i];
+  }
   flexibility_ = SmallCholesky<Scalar, Degree::modes>::of_root(M);
-  independence_ = flexibility_.independence();
 }
 
 template <typename Scalar, int k>
 void EquilibriumElement<Scalar, k>::factorise_product(const Eigen::Matrix3<Scalar>& c) {
-  using std::min;
-  using std::sqrt;
   Eigen::Matrix<Scalar, Degree::modes, Degree::modes> S;
   for (int j = 0; j < Degree::modes; ++j) {
-    const Scalar* M[6];
-    for (int m = 0; m < 6; ++m) M[m] = &reference().flexibility[m](0, j);
+    const Constant<Scalar>* M[6];
+    for (int m = 0; m < 6; ++m) M[m] = reference().flexibility[m] + Degree::modes * j;
     for (int i = j; i < Degree::modes; ++i)  // its lower triangle is read
       S(i, j) = c(0, 0) * M[0][i] + c(1, 1) * M[1][i] + c(2, 2) * M[2][i] + c(0, 1) * M[3][i] +
                 c(0, 2) * M[4][i] + c(1, 2) * M[5][i];
   }
   flexibility_ = SmallCholesky<Scalar, Degree::modes>(S);
-  independence_ = 1;
-  for (int j = 0; j < Degree::modes; ++j)  // in this order min() keeps a NaN
-    independence_ = min(Scalar(flexibility_.L()(j, j) / sqrt(S(j, j))), independence_);
 }
 
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Root EquilibriumElement<Scalar, k>::root() const {
   Root R;  // Tᵀ = T̂ᵀ (I ⊗ Bᵀ). The inner modes' rows are zero and stay so under L⁻¹.
-  const auto& forces = reference().forces;
-  for (int j = 0; j < Degree::size; j += 2)
+  const Constant<Scalar>* forces = reference().forces;
+  for (int j = 0; j < Degree::size; j += 2, forces += 2 * Degree::outer)
     for (int i = 0; i < Degree::outer; ++i)
       for (int x = 0; x < 2; ++x)
-        R(i, j + x) = forces(i, j) * B_(x, 0) + forces(i, j + 1) * B_(x, 1);
-  const auto& L = flexibility_.L();
+        R(i, j + x) = forces[i] * B_(x, 0) + forces[Degree::outer + i] * B_(x, 1);
   constexpr int first = Degree::inner;
   for (int i = 0; i < Degree::outer; ++i) {
-    for (int j = 0; j < i; ++j) R.row(i) -= L(first + i, first + j) * R.row(j);
-    R.row(i) /= L(first + i, first + i);
+    const auto factor = [&](int j) { return -flexibility_.L()(first + i, first + j); };
+    add_multiples(&R(i, 0), Degree::size, i, factor, &R(0, 0), Degree::size);
+    R.row(i) *= flexibility_.reciprocal()(first + i);
   }
   return R;
 }
 
 template <typename Scalar, int k>
-typename EquilibriumElement<Scalar, k>::Stiffness EquilibriumElement<Scalar, k>::stiffness() const {
-  const Root R = root();
-  Stiffness K = Stiffness::Zero();
+void EquilibriumElement<Scalar, k>::square(const Root& R, Scalar* lower) {
   for (int j = 0; j < Degree::size; ++j) {
-    for (int m = 0; m < Degree::outer; ++m)
-      for (int i = j; i < Degree::size; ++i) K(i, j) += R(m, j) * R(m, i);
-    for (int i = j + 1; i < Degree::size; ++i) K(j, i) = K(i, j);
+    const int length = Degree::size - j;
+    for (int i = 0; i < length; ++i) lower[i] = 0;
+    add_multiples(
+        lower, length, Degree::outer, [&](int m) { return R(m, j); }, &R(0, j), Degree::size);
+    lower += length;
   }
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Stiffness EquilibriumElement<Scalar, k>::stiffness() const {
+  Scalar lower[Degree::size * (Degree::size + 1) / 2];
+  square(root(), lower);
+  Stiffness K;
+  const Scalar* entry = lower;
+  for (int j = 0; j < Degree::size; ++j)
+    for (int i = j; i < Degree::size; ++i) K(i, j) = K(j, i) = *entry++;
   return K;
 }
 
@@ -262,12 +284,13 @@ namespace equilibrium_formulas {
 // W times the coefficients of each third and component: their scalar products are integrals.
 template <typename Scalar, int coefficients>
 Eigen::Matrix<Scalar, 3, coefficients> in_orthonormal(
-    const Eigen::MatrixX<Scalar>& W, const Eigen::Matrix<Scalar, 3, coefficients>& stress) {
+    const Constant<Scalar>* W, const Eigen::Matrix<Scalar, 3, coefficients>& stress) {
   constexpr int n = coefficients / 3;
   Eigen::Matrix<Scalar, 3, coefficients> result = Eigen::Matrix<Scalar, 3, coefficients>::Zero();
   for (int t = 0; t < 3; ++t)
     for (int i = 0; i < n; ++i)
-      for (int j = i; j < n; ++j) result.col(n * t + i) += W(i, j) * stress.col(n * t + j);
+      for (int j = i; j < n; ++j)
+        result.col(n * t + i) += Scalar(W[n * j + i]) * stress.col(n * t + j);
   return result;
 }
 
@@ -276,7 +299,6 @@ Eigen::Matrix<Scalar, 3, coefficients> in_orthonormal(
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::modes_load(
     const Stress& particular) const {
-  if (particular.isZero(0)) return Modes::Zero();
   const Eigen::Matrix3<Scalar> dual = to_stress_.transpose().lazyProduct(compliance_);
   const Components strain = determinant_ * dual.lazyProduct(equilibrium_formulas::in_orthonormal(
                                                                 reference().mass_root, particular))
@@ -284,33 +306,35 @@ typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::mod
   Modes load = Modes::Zero();
   for (int component = 0; component < 3; ++component)
     for (int mode = 0; mode < Degree::modes; ++mode)
-      load(mode) += in_four_sums(&reference().weighted[component](0, mode), &strain(0, component),
-                                 0, Degree::coefficients);
+      load(mode) += in_four_sums(reference().weighted[component] + Degree::coefficients * mode,
+                                 &strain(0, component), 0, Degree::coefficients);
   return load;
 }
 
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::OnEdges EquilibriumElement<Scalar, k>::load(
     const Stress& particular) const {
+  return edge_forces(particular) - root().transpose().lazyProduct(outer_load(particular));
+}
+
+template <typename Scalar, int k>
+Eigen::Matrix<Scalar, StressDegree<k>::outer, 1> EquilibriumElement<Scalar, k>::outer_load(
+    const Stress& particular) const {
   Modes y = modes_load(particular);
   flexibility_.solve_lower(y);
-  OnEdges f = edge_forces(particular);
-  const Root R = root();
-  for (int i = 0; i < Degree::outer; ++i) f -= y(Degree::inner + i) * R.row(i).transpose();
-  return f;
+  return y.template tail<Degree::outer>();
 }
 
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::work_of(
     const OnEdges& displacement) const {
+  OnEdges u;  // in x̂
+  for (int j = 0; j < Degree::size; j += 2)
+    u.template segment<2>(j) = B_.transpose().lazyProduct(displacement.template segment<2>(j));
   Modes work = Modes::Zero();
-  for (int j = 0; j < Degree::size; j += 2) {
-    const Eigen::Vector2<Scalar> u =
-        B_.transpose().lazyProduct(displacement.template segment<2>(j));
-    for (int i = 0; i < Degree::outer; ++i)
-      work(Degree::inner + i) +=
-          reference().forces(i, j) * u(0) + reference().forces(i, j + 1) * u(1);
-  }
+  add_multiples(
+      &work(Degree::inner), Degree::outer, Degree::size, [&](int j) { return u(j); },
+      reference().forces, Degree::outer);
   return work;
 }
 
@@ -322,7 +346,8 @@ typename EquilibriumElement<Scalar, k>::Defect EquilibriumElement<Scalar, k>::de
   flexibility_.solve(correction);
   Defect result{OnEdges::Zero(), g.dot(correction)};
   const auto force = [&](int j) {
-    return in_four_sums(&reference().forces(0, j), &correction(Degree::inner), 0, Degree::outer);
+    return in_four_sums(reference().forces + Degree::outer * j, &correction(Degree::inner), 0,
+                        Degree::outer);
   };
   for (int j = 0; j < Degree::size; j += 2)
     result.forces.template segment<2>(j) =
@@ -331,17 +356,15 @@ typename EquilibriumElement<Scalar, k>::Defect EquilibriumElement<Scalar, k>::de
 }
 
 template <typename Scalar, int k>
-typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::stress(
-    const OnEdges& displacement, const Stress& particular) const {
-  Modes modes = work_of(displacement) - modes_load(particular);
-  flexibility_.solve(modes);
+typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::of_modes(
+    Modes work) const {
+  flexibility_.solve(work);
   Components tau = Components::Zero();
   for (int component = 0; component < 3; ++component)
-    for (int mode = 0; mode < Degree::modes; ++mode) {
-      const Scalar* of_mode = &reference().stress[component](0, mode);
-      for (int i = 0; i < Degree::coefficients; ++i) tau(i, component) += of_mode[i] * modes(mode);
-    }
-  return particular + to_stress_.lazyProduct(tau.transpose());
+    add_multiples(
+        &tau(0, component), Degree::coefficients, Degree::modes, [&](int m) { return work(m); },
+        reference().stress[component], Degree::coefficients);
+  return to_stress_.lazyProduct(tau.transpose());
 }
 
 template <typename Scalar, int k>

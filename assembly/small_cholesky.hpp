@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/exact_data.hpp"
+
 namespace airybench {
 
 // Σ a_i b_i by four sums, so that no addition waits for the previous one.
-template <typename Scalar>
-Scalar in_four_sums(const Scalar* a, const Scalar* b, int first, int end) {
+template <typename Number, typename Scalar>
+Scalar in_four_sums(const Number* a, const Scalar* b, int first, int end) {
   constexpr int sums = 4;
   Scalar sum[sums] = {0, 0, 0, 0};
   int i = first;
@@ -20,21 +22,40 @@ Scalar in_four_sums(const Scalar* a, const Scalar* b, int first, int end) {
   return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
+// y += Σ_j a(j) x_j of `count` vectors of length n that begin `step` entries apart, in this order.
+// Four at a time, so that y is loaded and stored for every fourth only.
+template <typename Scalar, typename Number, typename Factor>
+void add_multiples(Scalar* __restrict y, int n, int count, Factor a, const Number* __restrict x,
+                   int step) {
+  int j = 0;
+  for (; j + 4 <= count; j += 4, x += 4 * step) {
+    const Scalar a0 = a(j), a1 = a(j + 1), a2 = a(j + 2), a3 = a(j + 3);
+    for (int i = 0; i < n; ++i)
+      y[i] =
+          (((y[i] + a0 * x[i]) + a1 * x[step + i]) + a2 * x[2 * step + i]) + a3 * x[3 * step + i];
+  }
+  for (; j < count; ++j, x += step) {
+    const Scalar a0 = a(j);
+    for (int i = 0; i < n; ++i) y[i] += a0 * x[i];
+  }
+}
+
 template <typename Scalar, int n>
 class SmallCholesky {
  public:
   SmallCholesky() = default;
   // S: symmetric; its lower triangle is read.
   explicit SmallCholesky(const Eigen::Matrix<Scalar, n, n>& S) {
+    using std::min;
     using std::sqrt;
-    for (int j = 0; j < n; ++j)
-      for (int i = j; i < n; ++i) L_(i, j) = S(i, j);
-    for (int j = 0; j < n; ++j) {  // down columns, which lie in one piece
-      L_(j, j) = sqrt(L_(j, j));
-      reciprocal_(j) = 1 / L_(j, j);
-      for (int i = j + 1; i < n; ++i) L_(i, j) *= reciprocal_(j);
-      for (int c = j + 1; c < n; ++c)
-        for (int i = c; i < n; ++i) L_(i, c) -= L_(c, j) * L_(i, j);
+    for (int c = 0; c < n; ++c) {  // down columns, which lie in one piece
+      for (int i = c; i < n; ++i) L_(i, c) = S(i, c);
+      add_multiples(
+          &L_(c, c), n - c, c, [&](int j) { return -L_(c, j); }, &L_(c, 0), n);
+      L_(c, c) = sqrt(L_(c, c));
+      reciprocal_(c) = 1 / L_(c, c);
+      independence_ = min(Scalar(L_(c, c) / sqrt(S(c, c))), independence_);
+      for (int i = c + 1; i < n; ++i) L_(i, c) *= reciprocal_(c);
     }
   }
   // S = MᵀM without forming it, which would square M's condition number: M = Q Lᵀ by modified
@@ -49,7 +70,6 @@ class SmallCholesky {
     for (int j = 0; j < n; ++j) {
       result.L_(j, j) = sqrt(dot(M, j, j));
       result.reciprocal_(j) = 1 / result.L_(j, j);
-      // In this order min() keeps a NaN, which the later columns have, too.
       result.independence_ = min(Scalar(result.L_(j, j) / length(j)), result.independence_);
       M.col(j) *= result.reciprocal_(j);
       for (int i = j + 1; i < n; ++i) {
@@ -59,12 +79,25 @@ class SmallCholesky {
     }
     return result;
   }
-  // The smallest sine of the angle between a column of M and those before it. Below a few roundings
-  // they are dependent, and S is not positive definite.
+  // The smallest sine of the angle between a column of M and those before it, in S = MᵀM. Below a
+  // few roundings they are dependent, and S is not positive definite. In the order above min()
+  // keeps a NaN, which the later columns have, too.
   const Scalar& independence() const { return independence_; }
   // Positive if S is positive definite to rounding: after a pivot that is not positive, none is.
   const Scalar& last_pivot() const { return L_(n - 1, n - 1); }
   const Eigen::Matrix<Scalar, n, n>& L() const { return L_; }
+  const Eigen::Matrix<Scalar, n, 1>& reciprocal() const { return reciprocal_; }  // of its diagonal
+
+  // a where it is true, else b: of packs (solvers/base/pack.hpp), lane by lane.
+  template <typename Truth>
+  static SmallCholesky chosen(const Truth& truth, const SmallCholesky& a, const SmallCholesky& b) {
+    const auto choose = [&](const Scalar& x, const Scalar& y) { return select(truth, x, y); };
+    SmallCholesky result;
+    result.L_ = a.L_.binaryExpr(b.L_, choose);
+    result.reciprocal_ = a.reciprocal_.binaryExpr(b.reciprocal_, choose);
+    result.independence_ = choose(a.independence_, b.independence_);
+    return result;
+  }
 
   // X ← S⁻¹ X, L⁻¹ X, L⁻ᵀ X.
   template <int columns>
@@ -96,7 +129,7 @@ class SmallCholesky {
   }
 
   Eigen::Matrix<Scalar, n, n> L_ = Eigen::Matrix<Scalar, n, n>::Zero();
-  Eigen::Matrix<Scalar, n, 1> reciprocal_;  // of L's diagonal
+  Eigen::Matrix<Scalar, n, 1> reciprocal_;
   Scalar independence_ = 1;
 };
 

@@ -1,6 +1,6 @@
 // A few doubles side by side that go through a formula together: a scalar for the templates of
-// hct.hpp and hybrid_element.hpp. Every lane is computed as a double by itself would be, in the
-// same order, so that the number of lanes does not change a bit.
+// hct.hpp and equilibrium_element.hpp. Every lane is computed as a double by itself would be, in
+// the same order, so that the number of lanes does not change a bit.
 #pragma once
 
 #include <Eigen/Core>
@@ -45,9 +45,21 @@ struct Pack {
   friend Pack operator-(const Pack& a, const Pack& b) { return Pack(a.lanes - b.lanes); }
   friend Pack operator*(const Pack& a, const Pack& b) { return Pack(a.lanes * b.lanes); }
   friend Pack operator/(const Pack& a, const Pack& b) { return Pack(a.lanes / b.lanes); }
-  friend Pack min(const Pack& a, const Pack& b) {
-    return Pack(b.lanes < a.lanes ? b.lanes : a.lanes);
-  }
+  // A truth per lane.
+  struct Truth {
+    decltype(Lanes{} < Lanes{}) lanes;
+    friend bool any(const Truth& truth) {
+      bool found = false;
+      for (int l = 0; l < width; ++l) found |= truth.lanes[l] != 0;
+      return found;
+    }
+    friend bool all(const Truth& truth) { return !any(Truth{~truth.lanes}); }
+    friend Pack select(const Truth& truth, const Pack& a, const Pack& b) {
+      return Pack(truth.lanes ? a.lanes : b.lanes);
+    }
+  };
+  friend Truth operator<(const Pack& a, const Pack& b) { return {a.lanes < b.lanes}; }
+  friend Pack min(const Pack& a, const Pack& b) { return select(b < a, b, a); }
   friend Pack sqrt(const Pack& a) {
     Pack root;
     for (int l = 0; l < width; ++l) root.lanes[l] = std::sqrt(a.lanes[l]);
@@ -58,6 +70,10 @@ struct Pack {
 template <int width>
 struct ExactData<Pack<width>> {
   using Type = Pack<width>;
+};
+template <int width>
+struct ConstantOf<Pack<width>> {
+  using Type = double;
 };
 
 }  // namespace airybench

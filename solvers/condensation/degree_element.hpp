@@ -1,40 +1,112 @@
-// One triangle of the hybridized system (hybridized.hpp) with stresses of degree 2 and more
-// (equilibrium_element.hpp), in the components of EdgeUnknowns. Degree 1 has vectorised kernels
-// (hybrid_kernels.hpp).
+// One triangle of the hybridized system (hybridized.hpp) with stresses of any degree
+// (equilibrium_element.hpp), in the components of EdgeUnknowns. Degree 1 has hybrid_element.hpp.
 #pragma once
 
-#include "assembly/equilibrium_element.hpp"
-#include "assembly/problem.hpp"
+#include "solvers/condensation/hybrid_element.hpp"
 
 namespace airybench {
 
-template <typename Scalar>
-struct DegreeInput {
-  TriangleVerticesFor<Scalar> vertices;
-  Eigen::Matrix3<Data<Scalar>> compliance;
-  Eigen::Matrix3<Scalar> particular;  // σ_p at the vertices
-  std::array<bool, 3> from_start;     // the edge's moments follow the element's walk
-  std::array<bool, 3> in_frame;       // its components are in `frame`, else x and y
-  std::array<std::array<EdgeFrameIn<Scalar>, highest_stress_degree + 1>, 3> frame;  // per moment
-};
+// Takes pairs of numbers, per edge and moment, from the order of the element's walk to that of the
+// unknowns or back: it is its own inverse.
+template <typename Scalar, int k>
+void reorder(const HybridInput<Scalar, k>& input, Scalar* pairs) {
+  for (int e = 0; e < 3; ++e, pairs += 2 * (k + 1))
+    for (int j = 0; j < (k + 1) / 2; ++j)
+      for (int x = 0; x < 2; ++x) {
+        Scalar &low = pairs[2 * j + x], &high = pairs[2 * (k - j) + x];
+        const Scalar along = input.from_start[e], against = Scalar(1) - along;
+        const Scalar first = along * low + against * high;
+        high = along * high + against * low;
+        low = first;
+      }
+}
 
-// What comes out are plain arrays, of the sizes of StressDegree and as in hybrid_element.hpp.
-template <typename Scalar>
-struct DegreeKernels {
-  // Returns the element's independence.
-  Scalar (*stiffness)(const DegreeInput<Scalar>& input, bool loaded, Scalar* lower, Scalar* load);
-  // Returns the defect's energy.
-  Scalar (*stress)(const DegreeInput<Scalar>& input, bool loaded, const Scalar* displacement,
-                   Scalar* stress, Scalar* forces, Scalar* defect);
-};
+// From x and y of the element's walk to the unknowns' components, and back.
+template <typename Scalar, int k>
+void to_unknowns(const HybridInput<Scalar, k>& input, Scalar* pairs) {
+  reorder(input, pairs);
+  const Scalar* q = &input.components[0][0][0];
+  for (int p = 0; p < 3 * (k + 1); ++p, pairs += 2, q += 4) {
+    const Scalar x = pairs[0], y = pairs[1];
+    pairs[0] = q[0] * x + q[1] * y;
+    pairs[1] = q[2] * x + q[3] * y;
+  }
+}
+template <typename Scalar, int k>
+void to_walk(const HybridInput<Scalar, k>& input, Scalar* pairs) {
+  const Scalar* q = &input.components[0][0][0];
+  for (int p = 0; p < 3 * (k + 1); ++p, q += 4) {
+    const Scalar first = pairs[2 * p], second = pairs[2 * p + 1];
+    pairs[2 * p] = q[0] * first + q[2] * second;
+    pairs[2 * p + 1] = q[1] * first + q[3] * second;
+  }
+  reorder(input, pairs);
+}
 
-// Throws std::invalid_argument where there is no such degree.
-template <typename Scalar>
-const DegreeKernels<Scalar>& degree_kernels(int degree);
+template <typename Scalar, int k>
+EquilibriumElement<Scalar, k> element_of(const HybridInput<Scalar, k>& input) {
+  const Eigen::Map<const TriangleVerticesFor<Scalar>> vertices(input.vertices);
+  const Eigen::Map<const Eigen::Matrix3<Data<Scalar>>> compliance(input.compliance);
+  return {vertices, compliance};
+}
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Stress particular_of(const HybridInput<Scalar, k>& input) {
+  const Eigen::Matrix3<Scalar> at_vertices =
+      Eigen::Map<const Eigen::Matrix3<Scalar>>(input.particular);
+  return linear_stress<k>(at_vertices);
+}
 
-// rows: per edge (rows_in_frame).
-template <typename Scalar>
-DegreeInput<Scalar> degree_input(const Problem& problem, const std::vector<int>& rows, int degree,
-                                 int triangle);
+template <typename Scalar, int k>
+HybridStiffness<Scalar, k> degree_stiffness(const HybridInput<Scalar, k>& input, bool loaded) {
+  using Element = EquilibriumElement<Scalar, k>;
+  const Element element = element_of(input);
+  typename Element::Root R = element.root();
+  for (int i = 0; i < R.rows(); ++i) to_unknowns(input, &R(i, 0));
+  HybridStiffness<Scalar, k> result;
+  Element::square(R, result.lower);
+  Eigen::Map<typename Element::OnEdges> load(result.load);
+  load.setZero();
+  if (loaded) {
+    const typename Element::Stress particular = particular_of(input);
+    load = element.edge_forces(particular);
+    to_unknowns(input, result.load);
+    load -= R.transpose().lazyProduct(element.outer_load(particular));
+  }
+  result.independence = element.independence();
+  return result;
+}
+
+template <typename Scalar, int k>
+HybridStress<Scalar, k> degree_stress(
+    const HybridInput<Scalar, k>& input, bool loaded,
+    typename EquilibriumElement<Scalar, k>::OnEdges displacement) {
+  using Element = EquilibriumElement<Scalar, k>;
+  using OnEdges = typename Element::OnEdges;
+  const Element element = element_of(input);
+  to_walk(input, displacement.data());
+  const typename Element::Stress total =
+      loaded ? element.stress(displacement, particular_of(input)) : element.stress(displacement);
+  const typename Element::Defect defect = element.defect(displacement, total);
+  HybridStress<Scalar, k> result;
+  Eigen::Map<typename Element::Stress>(result.stress) = total;
+  Eigen::Map<OnEdges>(result.forces) = element.edge_forces(total);
+  to_unknowns(input, result.forces);
+  Eigen::Map<OnEdges>(result.defect) = defect.forces;
+  to_unknowns(input, result.defect);
+  result.defect_energy = defect.energy;
+  return result;
+}
+
+template <typename Scalar, int k>
+requires(k > 1) HybridStiffness<Scalar, k> hybrid_stiffness(const HybridInput<Scalar, k>& input,
+                                                            bool loaded) {
+  return degree_stiffness(input, loaded);
+}
+template <typename Scalar, int k>
+requires(k > 1) HybridStress<Scalar, k> hybrid_stress(
+    const HybridInput<Scalar, k>& input, bool loaded,
+    const typename EquilibriumElement<Scalar, k>::OnEdges& displacement) {
+  return degree_stress(input, loaded, displacement);
+}
 
 }  // namespace airybench

@@ -11,66 +11,66 @@
 
 namespace airybench {
 
-// How the components of EdgeUnknowns make an element's edge components: x, y at the start and at
-// the end of its walk along edge k, which is the boundary's. row: rows_in_frame.
-template <typename Scalar>
-Eigen::Matrix4<Scalar> edge_components(const Problem& problem, int triangle, int k, int row) {
-  const auto& v = problem.mesh.triangles[triangle];
-  const int a = v[k], b = v[(k + 1) % 3];
-  Eigen::Matrix4<Scalar> q = Eigen::Matrix4<Scalar>::Zero();
-  if (row != no_frame) {
-    for (int end = 0; end < 2; ++end) {
-      const EdgeFrameIn<Scalar> frame = problem.frame_of_moment<Scalar>(row, 1, end);
-      q.template block<2, 1>(2 * end, 2 * end) = frame.normal;
-      q.template block<2, 1>(2 * end, 2 * end + 1) = frame.tangent;
+template <typename Scalar, int k>
+HybridInput<Scalar, k> hybrid_input(const Problem& problem, const std::vector<int>& rows, int t) {
+  HybridInput<Scalar, k> input;
+  const TriangleVertices v = problem.vertices_of(t);
+  std::copy_n(v.data(), 6, input.vertices);
+  std::copy_n(problem.compliance_of(t).data(), 9, input.compliance);
+  const auto& corner = problem.mesh.triangles[t];
+  for (int e = 0; e < 3; ++e) {
+    const int row = rows[problem.edges.of_triangle[t][e]];
+    input.from_start[e] = row != no_frame || corner[e] < corner[(e + 1) % 3];
+    for (int j = 0; j <= k; ++j) {
+      Eigen::Map<Eigen::Matrix2<Scalar>> directions(input.components[e][j]);
+      directions.setIdentity();
+      if (row == no_frame) continue;
+      const EdgeFrameIn<Scalar> frame = problem.frame_of_moment<Scalar>(row, k, j);
+      directions << frame.normal, frame.tangent;
     }
-  } else if (a < b) {
-    q.setIdentity();
-  } else {
-    q.template topRightCorner<2, 2>().setIdentity();
-    q.template bottomLeftCorner<2, 2>().setIdentity();
+    Eigen::Map<Eigen::Vector3<Scalar>> particular(input.particular + 3 * e);
+    particular.setZero();
+    if (problem.loads.has_body_force())
+      particular = problem.particular_stress<Scalar>(v.col(e).template cast<Scalar>());
+  }
+  return input;
+}
+
+// How the components of EdgeUnknowns make an element's edge components: x, y at the start and at
+// the end of its walk along an edge.
+template <typename Scalar>
+Eigen::Matrix4<Scalar> edge_components(const HybridInput<Scalar>& input, int edge) {
+  const Scalar along = input.from_start[edge], against = Scalar(1) - along;
+  Eigen::Matrix4<Scalar> q;
+  for (int end = 0; end < 2; ++end) {
+    const Eigen::Map<const Eigen::Matrix2<Scalar>> own(input.components[edge][end]);
+    q.template block<2, 2>(2 * end, 2 * end) = along * own;
+    q.template block<2, 2>(2 * (1 - end), 2 * end) = against * own;
   }
   return q;
 }
 
 template <typename Scalar>
-HybridInput<Scalar> hybrid_input(const Problem& problem, const std::vector<int>& rows, int t) {
-  HybridInput<Scalar> input;
-  const TriangleVertices v = problem.vertices_of(t);
-  const Eigen::Matrix3d& compliance = problem.compliance_of(t);
-  std::copy_n(v.data(), 6, input.vertices);
-  std::copy_n(problem.edge_signs(t).data(), 3, input.outward);
-  std::copy_n(compliance.data(), 9, input.compliance);
-  input.area = problem.area_mm2<Scalar>(t);
-  for (int k = 0; k < 3; ++k) {
-    const int edge = problem.edges.of_triangle[t][k];
-    const auto q = edge_components<Scalar>(problem, t, k, rows[edge]);
-    std::copy_n(q.data(), 16, input.components[k]);
-  }
-  if (problem.loads.has_body_force())
-    std::copy_n(particular_element_stress<Scalar>(problem, t).data(), 27, input.particular);
-  else
-    std::fill_n(input.particular, 27, Scalar(0));
-  return input;
-}
-
-template <typename Scalar>
 HybridElement<Scalar> make_hybrid_element(const HybridInput<Scalar>& input, bool loaded) {
   const Eigen::Map<const TriangleVerticesFor<Scalar>> v(input.vertices);
-  const EdgeSignsFor<Scalar> outward = {input.outward[0], input.outward[1], input.outward[2]};
+  const EdgeSignsFor<Scalar> outward = {1, 1, 1};  // K_e and stresses are the same for all signs
   const Eigen::Matrix3<Data<Scalar>> compliance =
       Eigen::Map<const Eigen::Matrix3<Data<Scalar>>>(input.compliance);
   HybridElement<Scalar> element;
+  const hct_formulas::Corners<Scalar> c = hct_formulas::at_origin<Scalar>(v);
+  element.area = (c(0, 1) * c(1, 2) - c(1, 1) * c(0, 2)) / Scalar(2);
   element.stress = hct_stress<Scalar, 9>(v, outward);
   element.flexibility = SmallCholesky<Scalar, 9>::of_root(
-      hct_flexibility_root(element.stress, input.area, compliance));
+      hct_flexibility_root(element.stress, element.area, compliance));
 
   element.loaded = loaded;
-  element.particular = Eigen::Map<const ElementStressIn<Scalar>>(input.particular);
+  element.particular.setZero();
   element.particular_load.setZero();
   if (loaded) {
+    element.particular = linear_stress<1>(
+        Eigen::Matrix3<Scalar>(Eigen::Map<const Eigen::Matrix3<Scalar>>(input.particular)));
     const Eigen::Matrix<Scalar, 27, 1> dual =
-        stress_dual<Scalar>(element.particular, input.area, compliance).reshaped();
+        stress_dual<Scalar>(element.particular, element.area, compliance).reshaped();
     element.particular_load = element.stress.transpose().lazyProduct(dual);
   }
 
@@ -79,7 +79,7 @@ HybridElement<Scalar> make_hybrid_element(const HybridInput<Scalar>& input, bool
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
     const EdgeForcesIn<Scalar> f = edge_forces<Scalar>(v.col(k), v.col(next), outward[k]);
-    const Eigen::Matrix4<Scalar> q = Eigen::Map<const Eigen::Matrix4<Scalar>>(input.components[k]);
+    const Eigen::Matrix4<Scalar> q = edge_components(input, k);
     const std::array<int, 7> dofs = {3 * k,        3 * k + 1,    3 * k + 2, 3 * next,
                                      3 * next + 1, 3 * next + 2, 9 + k};
     for (int j = 0; j < 7; ++j)
@@ -128,7 +128,7 @@ HybridStress<Scalar> hybrid_stress(const HybridInput<Scalar>& input, bool loaded
   Eigen::Map<ElementStressIn<Scalar>>(result.stress) = total;
 
   const Eigen::Matrix<Scalar, 27, 1> dual =
-      stress_dual<Scalar>(total, input.area, compliance).reshaped();
+      stress_dual<Scalar>(total, element.area, compliance).reshaped();
   const Eigen::Matrix<Scalar, 9, 1> g = right - element.stress.transpose().lazyProduct(dual);
   Eigen::Matrix<Scalar, 9, 1> correction = g;
   element.flexibility.solve(correction);
@@ -138,9 +138,8 @@ HybridStress<Scalar> hybrid_stress(const HybridInput<Scalar>& input, bool loaded
 
   for (int k = 0; k < 3; ++k)
     Eigen::Map<Eigen::Vector4<Scalar>>(result.forces + 4 * k) =
-        Eigen::Map<const Eigen::Matrix4<Scalar>>(input.components[k])
-            .transpose()
-            .lazyProduct(element_edge_forces<Scalar>(v, total, k).reshaped());
+        edge_components(input, k).transpose().lazyProduct(
+            element_edge_forces<Scalar>(v, total, k).reshaped());
   return result;
 }
 

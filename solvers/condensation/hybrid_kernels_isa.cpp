@@ -6,9 +6,14 @@
 // Instructions of this set must not reach code that other processors run. So nothing here is
 // instantiated for a type that other files use too — all are packs of this width —, and a test
 // reads the object's symbols.
+#include "assembly/equilibrium_element_templates.hpp"
 #include "solvers/base/pack.hpp"
+#include "solvers/condensation/degree_element.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
+
+#define AIRYBENCH_TEXT_2(isa) #isa
+#define AIRYBENCH_TEXT(isa) AIRYBENCH_TEXT_2(isa)
 
 namespace airybench {
 namespace {
@@ -37,26 +42,33 @@ void scatter(const Values& values, ValuesOfDoubles* to) {
     for (int i = 0; i < count; ++i) number[l * count + i] = pack[i].lanes[l];
 }
 
-void stiffness(const HybridInput<double>* input, bool loaded, HybridStiffness<double>* result) {
-  scatter(hybrid_stiffness(gather<HybridInput<Lanes>>(input), loaded), result);
+template <int k>
+void stiffness(const HybridInput<double, k>* input, bool loaded,
+               HybridStiffness<double, k>* result) {
+  scatter(hybrid_stiffness(gather<HybridInput<Lanes, k>>(input), loaded), result);
 }
 
-void stress(const HybridInput<double>* input, bool loaded, const double* displacement,
-            HybridStress<double>* result) {
-  Eigen::Matrix<Lanes, 12, 1> u;
-  for (int i = 0; i < 12; ++i)
-    for (int l = 0; l < AIRYBENCH_LANES; ++l) u(i).lanes[l] = displacement[12 * l + i];
-  scatter(hybrid_stress(gather<HybridInput<Lanes>>(input), loaded, u), result);
+template <int k>
+void stress(const HybridInput<double, k>* input, bool loaded, const double* displacement,
+            HybridStress<double, k>* result) {
+  constexpr int size = StressDegree<k>::size;
+  Eigen::Matrix<Lanes, size, 1> u;
+  for (int i = 0; i < size; ++i)
+    for (int l = 0; l < AIRYBENCH_LANES; ++l) u(i).lanes[l] = displacement[size * l + i];
+  scatter(hybrid_stress(gather<HybridInput<Lanes, k>>(input), loaded, u), result);
+}
+
+template <int... i>
+constexpr HybridKernelSet kernels_of_degrees(std::integer_sequence<int, i...>) {
+  return {{AIRYBENCH_TEXT(AIRYBENCH_ISA), AIRYBENCH_LANES, stiffness<i + 1>, stress<i + 1>}...};
 }
 
 }  // namespace
 
 #define AIRYBENCH_NAME_2(isa) hybrid_kernels_##isa
 #define AIRYBENCH_NAME(isa) AIRYBENCH_NAME_2(isa)
-#define AIRYBENCH_TEXT_2(isa) #isa
-#define AIRYBENCH_TEXT(isa) AIRYBENCH_TEXT_2(isa)
-extern const HybridKernels<double> AIRYBENCH_NAME(AIRYBENCH_ISA);
-const HybridKernels<double> AIRYBENCH_NAME(AIRYBENCH_ISA) = {AIRYBENCH_TEXT(AIRYBENCH_ISA),
-                                                             AIRYBENCH_LANES, stiffness, stress};
+extern const HybridKernelSet AIRYBENCH_NAME(AIRYBENCH_ISA);
+constinit const HybridKernelSet AIRYBENCH_NAME(AIRYBENCH_ISA) =
+    kernels_of_degrees(StressDegreeIndices());
 
 }  // namespace airybench

@@ -32,13 +32,10 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
   return answer;
 }
 
-template HybridInput<double> hybrid_input(const Problem&, const std::vector<int>&, int);
 template struct HybridizedSystemIn<double>;
 template HybridizedSystemIn<double> assemble_hybridized(const Problem&, const ContactPoints&);
 template void set_load_case(const Problem&, HybridizedSystemIn<double>&);
 
-template HybridInput<long double> hybrid_input(const Problem&, const std::vector<int>&, int);
-template HybridKernels<long double> hybrid_kernels();
 template struct HybridizedSystemIn<long double>;
 template HybridizedSystemIn<long double> assemble_hybridized(const Problem&, const ContactPoints&);
 template StressField hybridized_stress(const Problem&, const HybridizedSystemIn<long double>&,

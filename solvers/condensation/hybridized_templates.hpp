@@ -72,30 +72,30 @@ std::size_t HybridizedSystemIn<Scalar>::bytes() const {
          static_cast<std::size_t>(displacement.size()) * sizeof(double);
 }
 
-template <typename Scalar>
-HybridKernels<Scalar> hybrid_kernels() {
+template <typename Scalar, int k>
+HybridKernels<Scalar, k> hybrid_kernels() {
   return {"one by one", 1,
-          [](const HybridInput<Scalar>* input, bool loaded, HybridStiffness<Scalar>* result) {
+          [](const HybridInput<Scalar, k>* input, bool loaded, HybridStiffness<Scalar, k>* result) {
             *result = hybrid_stiffness(*input, loaded);
           },
-          [](const HybridInput<Scalar>* input, bool loaded, const Scalar* displacement,
-             HybridStress<Scalar>* result) {
-            const Eigen::Map<const Eigen::Matrix<Scalar, 12, 1>> u(displacement);
-            *result = hybrid_stress<Scalar>(*input, loaded, u);
+          [](const HybridInput<Scalar, k>* input, bool loaded, const Scalar* displacement,
+             HybridStress<Scalar, k>* result) {
+            const Eigen::Matrix<Scalar, StressDegree<k>::size, 1> u(displacement);
+            *result = hybrid_stress(*input, loaded, u);
           }};
 }
 
 // Calls work(first triangle, how many, their inputs) until all have been at work; the inputs are
 // as many as the kernels take, the last repeated where there are no more.
-template <typename Scalar, typename Work>
-void in_batches(const Problem& problem, const HybridKernels<Scalar>& kernels, Work work) {
+template <typename Scalar, int k, typename Work>
+void in_batches(const Problem& problem, const HybridKernels<Scalar, k>& kernels, Work work) {
   const std::vector<int> rows = rows_in_frame(problem);
   const int triangles = static_cast<int>(problem.mesh.triangles.size());
-  std::vector<HybridInput<Scalar>> input(static_cast<std::size_t>(kernels.width));
+  std::vector<HybridInput<Scalar, k>> input(static_cast<std::size_t>(kernels.width));
   for (int first = 0; first < triangles; first += kernels.width) {
     const int count = std::min(kernels.width, triangles - first);
     for (int l = 0; l < kernels.width; ++l)
-      input[l] = l < count ? hybrid_input<Scalar>(problem, rows, first + l) : input[count - 1];
+      input[l] = l < count ? hybrid_input<Scalar, k>(problem, rows, first + l) : input[count - 1];
     work(first, count, input.data());
   }
 }
@@ -124,24 +124,14 @@ void visit_stiffness(const Problem& problem, int degree, Visit visit) {
     visit(t, of_triangle);
   };
   const bool loaded = problem.loads.has_body_force();
-  if (degree > 1) {
-    const DegreeKernels<Scalar>& kernels = degree_kernels<Scalar>(degree);
-    const std::vector<int> rows = rows_in_frame(problem);
-    const auto size = static_cast<std::size_t>(6 * (degree + 1));
-    std::vector<Scalar> lower(size * (size + 1) / 2), load(size);
-    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-      const Scalar independence = kernels.stiffness(degree_input<Scalar>(problem, rows, degree, t),
-                                                    loaded, lower.data(), load.data());
-      checked(t, {lower.data(), load.data(), independence});
-    }
-    return;
-  }
-  const HybridKernels<Scalar> kernels = hybrid_kernels<Scalar>();
-  std::vector<HybridStiffness<Scalar>> result(static_cast<std::size_t>(kernels.width));
-  in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar>* input) {
-    kernels.stiffness(input, loaded, result.data());
-    for (int l = 0; l < count; ++l)
-      checked(first + l, {result[l].lower, result[l].load, result[l].independence});
+  with_degree(degree, [&](auto k) {
+    const auto kernels = hybrid_kernels<Scalar, k>();
+    std::vector<HybridStiffness<Scalar, k>> result(static_cast<std::size_t>(kernels.width));
+    in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar, k>* input) {
+      kernels.stiffness(input, loaded, result.data());
+      for (int l = 0; l < count; ++l)
+        checked(first + l, {result[l].lower, result[l].load, result[l].independence});
+    });
   });
 }
 
@@ -194,31 +184,19 @@ template <typename Scalar, typename Visit>
 void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                     const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u, Visit visit) {
   const bool loaded = problem.loads.has_body_force();
-  const int size = 3 * system.unknown.length();
-  if (system.degree() > 1) {
-    const DegreeKernels<Scalar>& kernels = degree_kernels<Scalar>(system.degree());
-    const std::vector<int> rows = rows_in_frame(problem);
-    Eigen::VectorX<Scalar> local(size), forces(size), defect(size),
-        stress(9 * bernstein_count(system.degree()));
-    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-      element_displacement<Scalar>(problem, system, u, t, local);
-      const Scalar energy =
-          kernels.stress(degree_input<Scalar>(problem, rows, system.degree(), t), loaded,
-                         local.data(), stress.data(), forces.data(), defect.data());
-      visit(t, StressOfTriangle<Scalar>{stress.data(), forces.data(), defect.data(), energy});
-    }
-    return;
-  }
-  const HybridKernels<Scalar> kernels = hybrid_kernels<Scalar>();
-  std::vector<HybridStress<Scalar>> result(static_cast<std::size_t>(kernels.width));
-  Eigen::MatrixX<Scalar> local = Eigen::MatrixX<Scalar>::Zero(size, kernels.width);
-  in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar>* input) {
-    for (int l = 0; l < count; ++l)
-      element_displacement<Scalar>(problem, system, u, first + l, local.col(l));
-    kernels.stress(input, loaded, local.data(), result.data());
-    for (int l = 0; l < count; ++l)
-      visit(first + l, StressOfTriangle<Scalar>{result[l].stress, result[l].forces,
-                                                result[l].defect, result[l].defect_energy});
+  with_degree(system.degree(), [&](auto k) {
+    const auto kernels = hybrid_kernels<Scalar, k>();
+    std::vector<HybridStress<Scalar, k>> result(static_cast<std::size_t>(kernels.width));
+    Eigen::MatrixX<Scalar> local =
+        Eigen::MatrixX<Scalar>::Zero(StressDegree<k>::size, kernels.width);
+    in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar, k>* input) {
+      for (int l = 0; l < count; ++l)
+        element_displacement<Scalar>(problem, system, u, first + l, local.col(l));
+      kernels.stress(input, loaded, local.data(), result.data());
+      for (int l = 0; l < count; ++l)
+        visit(first + l, StressOfTriangle<Scalar>{result[l].stress, result[l].forces,
+                                                  result[l].defect, result[l].defect_energy});
+    });
   });
 }
 

@@ -76,16 +76,21 @@ TEST(Degrees, TheGeneralElementOfDegreeOneIsHybrids) {
     const HybridizedSystem system = assemble_hybridized(*problem, contact_points(*problem));
     const std::vector<int> rows = rows_in_frame(*problem);
     for (int t = 0; t < system.K.count(); ++t) {
-      Eigen::Matrix<double, 78, 1> lower;
-      Eigen::Matrix<double, 12, 1> load;
-      degree_kernels<double>(1).stiffness(degree_input<double>(*problem, rows, 1, t), loaded,
-                                          lower.data(), load.data());
-      const Eigen::Map<const Eigen::Matrix<double, 78, 1>> own(system.K.lower[t].data());
-      EXPECT_LT((lower - own).norm(), 1e-11 * own.norm()) << t;
-      const HybridStiffness<double> hybrid =
-          hybrid_stiffness(hybrid_input<double>(*problem, rows, t), loaded);
-      EXPECT_LT((load - Eigen::Map<const Eigen::Matrix<double, 12, 1>>(hybrid.load)).norm(),
-                1e-11 * (1 + load.norm()));
+      const HybridInput<double> input = hybrid_input<double, 1>(*problem, rows, t);
+      const HybridStiffness<double> general = degree_stiffness(input, loaded),
+                                    hybrid = hybrid_stiffness(input, loaded);
+      using Lower = Eigen::Map<const Eigen::Matrix<double, 78, 1>>;
+      using OnEdges = Eigen::Matrix<double, 12, 1>;
+      const Lower own(system.K.lower[t].data());
+      EXPECT_LT((Lower(general.lower) - own).norm(), 1e-11 * own.norm()) << t;
+      const Eigen::Map<const OnEdges> load(general.load);
+      EXPECT_LT((load - Eigen::Map<const OnEdges>(hybrid.load)).norm(), 1e-11 * (1 + load.norm()));
+      const OnEdges u = 1e-3 * OnEdges::LinSpaced(0, 11).array().sin();
+      const HybridStress<double> stress = degree_stress(input, loaded, u),
+                                 of_hybrid = hybrid_stress(input, loaded, u);
+      const Eigen::Map<const OnEdges> forces(stress.forces);
+      EXPECT_LT((forces - Eigen::Map<const OnEdges>(of_hybrid.forces)).norm(),
+                1e-11 * (1 + forces.norm()));
     }
   }
 }
