@@ -43,19 +43,13 @@ class FrictionGap {
   double part(const EdgeValues<k + 1>& u_t, double start, double length) const {
     using Points = boost::math::quadrature::gauss<double, k + 1>;  // exact for degree 2k + 1
     const auto at = [&](double u) {
-      const double value = value_at(u_t, u);
+      const double value = bernstein_value(u_t, u);
       EdgeValues<k> bracket;
       for (int j = 0; j <= k; ++j)
         bracket[j] = std::copysign(1, value) * tangential_[j] - mu_ * normal_[j];
-      return std::abs(value) * value_at(bracket, start + u * length);
+      return std::abs(value) * bernstein_value(bracket, start + u * length);
     };
     return (k + 1) * length * Points::integrate(at, 0., 1.);
-  }
-  template <std::size_t size>
-  static double value_at(std::array<double, size> c, double s) {
-    for (std::size_t step = 1; step < size; ++step)
-      for (std::size_t i = 0; i + step < size; ++i) c[i] = (1 - s) * c[i] + s * c[i + 1];
-    return c[0];
   }
 
   double mu_;
