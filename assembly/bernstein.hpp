@@ -8,6 +8,7 @@
 #include <cassert>
 #include <iterator>
 #include <type_traits>
+#include <utility>
 
 namespace airybench {
 
@@ -90,12 +91,25 @@ Value moment_of(int k, int j, const std::array<Value, size>& q) {
   return moment;
 }
 
-// The polynomial with the coefficients c at s = 0 … 1, by de Casteljau's steps.
-template <typename Value, std::size_t size>
-Value bernstein_value(std::array<Value, size> c, double s) {
-  for (std::size_t step = 1; step < size; ++step)
-    for (std::size_t i = 0; i + step < size; ++i) c[i] = (1 - s) * c[i] + s * c[i + 1];
-  return c[0];
+// The polynomial with the coefficients c at s = 0 … 1, and the coefficients of its two halves, by
+// de Casteljau's steps.
+template <typename Coefficients>
+auto bernstein_value(Coefficients c, double s) {
+  const int degree = static_cast<int>(std::size(c)) - 1;
+  for (int step = 1; step <= degree; ++step)
+    for (int i = 0; i <= degree - step; ++i) c[i] = (1 - s) * c[i] + s * c[i + 1];
+  return std::decay_t<decltype(c[0])>(c[0]);
+}
+template <typename Coefficients>
+std::pair<Coefficients, Coefficients> halved(const Coefficients& c) {
+  std::pair<Coefficients, Coefficients> halves{c, c};
+  auto& [left, right] = halves;
+  const int degree = static_cast<int>(std::size(c)) - 1;
+  for (int step = 1; step <= degree; ++step) {
+    for (int i = 0; i <= degree - step; ++i) right[i] = (right[i] + right[i + 1]) / 2;
+    left[step] = right[0];
+  }
+  return halves;
 }
 
 }  // namespace airybench

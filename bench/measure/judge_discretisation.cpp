@@ -92,8 +92,8 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
     }
     result.of_steps.push_back(shown(result.error));
     result.intervals.reset();
-    if (bound == Bound::p2 || degree > 1 || !result.error.flaw.empty()) return;
-    if (!lifts) lifts = resultant_lifts(*problem_);
+    if (bound == Bound::p2 || !result.error.flaw.empty()) return;
+    if (!lifts) lifts = resultant_lifts(*problem_, degree);
     result.intervals =
         contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
     if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());

@@ -29,11 +29,7 @@ class FrictionGap {
     constexpr double shortest = 1e-9;
     const auto [least, largest] = std::minmax_element(u_t.begin(), u_t.end());
     if (length < shortest || !(*least < 0 && *largest > 0)) return part(u_t, start, length);
-    EdgeValues<k + 1> left = u_t, right = u_t;  // by de Casteljau's steps
-    for (int step = 1; step <= k + 1; ++step) {
-      for (int i = 0; i <= k + 1 - step; ++i) right[i] = (right[i] + right[i + 1]) / 2;
-      left[step] = right[0];
-    }
+    const auto [left, right] = halved(u_t);
     return integral(left, start, length / 2) + integral(right, start + length / 2, length / 2);
   }
 

@@ -5,6 +5,7 @@
 
 #include "assembly/scene.hpp"
 #include "solvers/base/kept_body.hpp"
+#include "solvers/contact/coulomb_law.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/method_names.hpp"
@@ -60,8 +61,9 @@ class LoadSteps : public ::testing::TestWithParam<Method> {
 };
 INSTANTIATE_TEST_SUITE_P(
     Methods, LoadSteps,
-    ::testing::ValuesIn(select_methods("HYBRID,HYBRID:k=2,HYBRID:k=3,HYBRID:k=4,HYBRID:CG,P2,"
-                                       "3STEPD:CHOLMOD,3STEPD:REFINED,BLIND:SCHUR,ALM:AUTO,SSKY")),
+    ::testing::ValuesIn(select_methods(testing::hybrid_of_every_degree() +
+                                       ",HYBRID:CG,P2,3STEPD:CHOLMOD,3STEPD:REFINED,BLIND:SCHUR,"
+                                       "ALM:AUTO,SSKY")),
     testing::readable);
 
 TEST_P(LoadSteps, TheFirstIsTheSingleSolve) {
