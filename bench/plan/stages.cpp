@@ -35,11 +35,11 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
     return "a path of load steps: other programs are asked for one";
   if (external && method.condenses_contact() && mesh_sizes(body->mesh).contact_edges == 0)
     return "no contact boundary: nothing is left for the program";
-  const std::string why = why_no_blocks(*body, method.blocks, method.degree);
+  const std::string why = why_no_blocks(*body, method.blocks);
   if (why.empty()) return why;
   std::vector<std::string> others;
   for (const Method& other : methods())
-    if (why_no_blocks(*body, other.blocks, other.degree).empty()) others.push_back(other.name);
+    if (why_no_blocks(*body, other.blocks).empty()) others.push_back(other.name);
   return fmt::format("{} (methods without one: {})", why, fmt::join(others, ", "));
 }
 
