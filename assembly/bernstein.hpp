@@ -5,7 +5,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cassert>
+#include <iterator>
 #include <type_traits>
+#include <utility>
 
 namespace airybench {
 
@@ -48,22 +51,23 @@ constexpr double edge_moment(int k, int j, int p, int i) {
   return (k + 1.) / (k + p + 1) * binomial(k, j) * binomial(p, i) / binomial(k + p, i + j);
 }
 
-// Bernstein coefficients of degree p of the polynomial of degree q < p with the coefficients c:
-// c_i = Σ_j binom(q, j) binom(p − q, i − j) / binom(p, i) c_j.
-template <int p, typename Value, std::size_t size>
-std::array<Value, p + 1> elevated(const std::array<Value, size>& c) {
-  constexpr int q = static_cast<int>(size) - 1;
-  if constexpr (p == q) {
-    return c;
-  } else {
-    std::array<Value, p + 1> higher;
-    for (int i = 0; i <= p; ++i) {
-      higher[i] = 0 * c[0];
-      for (int j = std::max(0, i - p + q); j <= std::min(i, q); ++j)
-        higher[i] += binomial(q, j) * binomial(p - q, i - j) / binomial(p, i) * c[j];
-    }
-    return higher;
+// Bernstein coefficients of degree p of the polynomial of degree q ≤ p with the coefficients c:
+// Σ_j binom(q, j) binom(p − q, i − j) / binom(p, i) c_j.
+template <int p, typename Coefficients>
+auto elevated(const Coefficients& c) {
+  using Value = std::decay_t<decltype(c[0])>;
+  const int q = static_cast<int>(std::size(c)) - 1;
+  assert(q <= p);
+  std::array<Value, p + 1> higher;
+  for (int i = 0; i <= p; ++i) {
+    const auto weight = [&](int j) {
+      return binomial(q, j) * binomial(p - q, i - j) / binomial(p, i);
+    };
+    const int first = std::max(0, i - p + q), last = std::min(i, q);
+    higher[i] = weight(first) * c[first];
+    for (int j = first + 1; j <= last; ++j) higher[i] += weight(j) * c[j];
   }
+  return higher;
 }
 
 // The moments (q + 1)/L ∫ B_j … ds with B_j of degree q < p, from those of degree p.
@@ -78,13 +82,34 @@ std::array<double, q + 1> lower_moments(const std::array<double, size>& moments)
   return lower;
 }
 
-// Moment (k + 1)/L ∫ B_j q ds over an edge, B_j of degree k, q with these Bernstein coefficients of
-// degree 2.
+// Moment (k + 1)/L ∫ B_j q ds over an edge, B_j of degree k, q with these Bernstein coefficients.
+template <typename Value, std::size_t size>
+Value moment_of(int k, int j, const std::array<Value, size>& q) {
+  constexpr int p = static_cast<int>(size) - 1;
+  Value moment = edge_moment(k, j, p, 0) * q[0];
+  for (int i = 1; i <= p; ++i) moment += edge_moment(k, j, p, i) * q[i];
+  return moment;
+}
+
+// The polynomial with the coefficients c at s = 0 … 1, and the coefficients of its two halves, by
+// de Casteljau's steps.
 template <typename Coefficients>
-auto moment_of_quadratic(int k, int j, const Coefficients& q) {
-  const auto weight = [&](int i) { return edge_moment(k, j, 2, i); };
-  using Value = std::decay_t<decltype(q[0])>;
-  return Value(weight(0) * q[0] + weight(1) * q[1] + weight(2) * q[2]);
+auto bernstein_value(Coefficients c, double s) {
+  const int degree = static_cast<int>(std::size(c)) - 1;
+  for (int step = 1; step <= degree; ++step)
+    for (int i = 0; i <= degree - step; ++i) c[i] = (1 - s) * c[i] + s * c[i + 1];
+  return std::decay_t<decltype(c[0])>(c[0]);
+}
+template <typename Coefficients>
+std::pair<Coefficients, Coefficients> halved(const Coefficients& c) {
+  std::pair<Coefficients, Coefficients> halves{c, c};
+  auto& [left, right] = halves;
+  const int degree = static_cast<int>(std::size(c)) - 1;
+  for (int step = 1; step <= degree; ++step) {
+    for (int i = 0; i <= degree - step; ++i) right[i] = (right[i] + right[i + 1]) / 2;
+    left[step] = right[0];
+  }
+  return halves;
 }
 
 }  // namespace airybench

@@ -65,7 +65,7 @@ ControlPoints control_points(const Problem& problem) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
     if (!prescribed) prescribed = prescribed_displacement(problem);
     const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    const std::array<ContactOffset, 3> offsets = problem.offset_coefficients(row);
+    const std::array<ContactOffset, 3> offsets = offset_coefficients<2>(problem, row);
     for (int k = 0; k < 3; ++k) {
       if (prescribed->at[nodes[k]]) continue;
       const Eigen::Vector2d normal = problem.frame_at(row, k, 2).normal;

@@ -240,6 +240,24 @@ Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {
   });
 }
 
+template <int p>
+std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int row) {
+  const auto [start, end] = problem.mesh.boundary[row].vertices;
+  const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+  std::array<double, p + 1> gap{}, slid{};
+  if (const auto& g0 = problem.loads.gap_mm)
+    gap = elevated<p>(edge_coefficients(g0(a, row), g0((a + b) / 2, row), g0(b, row)));
+  if (const auto& s = problem.loads.slid_mm; s.rows() > p + 1)
+    throw std::invalid_argument("slip of degree " + std::to_string(s.rows() - 1) +
+                                " for displacements of degree " + std::to_string(p));
+  else if (s.size() > 0)
+    slid = elevated<p>(s.col(row));
+  std::array<ContactOffset, p + 1> offsets;
+  for (int i = 0; i <= p; ++i)
+    offsets[i] = {gap[i], slid[i], problem.motion.at(a + i * (b - a) / p)};
+  return offsets;
+}
+
 PrescribedDisplacement prescribed_displacement(const Problem& problem, int degree) {
   return with_degree(degree - 1, [&](auto stress_degree) {
     constexpr int p = stress_degree + 1;
@@ -280,11 +298,12 @@ double work_of_loads(const Problem& problem, const DisplacementField& u) {
   return nodal_loads(problem, displacement_degree(problem, u)).cwiseProduct(u).sum();
 }
 
-#define AIRYBENCH_INSTANTIATE(k)                                                          \
-  template std::array<int, DisplacementTriangle<(k) + 1>::nodes> triangle_nodes<(k) + 1>( \
-      const Problem&, int);                                                               \
-  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int);         \
-  template DisplacementTriangle<(k) + 1>::Displacement of_triangle<(k) + 1>(              \
+#define AIRYBENCH_INSTANTIATE(k)                                                                 \
+  template std::array<int, DisplacementTriangle<(k) + 1>::nodes> triangle_nodes<(k) + 1>(        \
+      const Problem&, int);                                                                      \
+  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int);                \
+  template std::array<ContactOffset, (k) + 2> offset_coefficients<(k) + 1>(const Problem&, int); \
+  template DisplacementTriangle<(k) + 1>::Displacement of_triangle<(k) + 1>(                     \
       const Problem&, const DisplacementField&, int);
 AIRYBENCH_STRESS_DEGREES(AIRYBENCH_INSTANTIATE)
 #undef AIRYBENCH_INSTANTIATE

@@ -35,18 +35,9 @@ template <int p = 2>
 std::array<int, p + 1> boundary_nodes(const Problem& problem, int row);
 
 // On an edge of Γ_C, as Bernstein coefficients of degree p: its offset, and their frames.
+// std::invalid_argument: its slip has a higher degree.
 template <int p>
-std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int row) {
-  const std::array<ContactOffset, 3> quadratic = problem.offset_coefficients(row);
-  const auto higher = [&](auto part) {
-    return elevated<p>(std::array{quadratic[0].*part, quadratic[1].*part, quadratic[2].*part});
-  };
-  const auto gap = higher(&ContactOffset::gap_mm), slid = higher(&ContactOffset::slid_mm);
-  const auto motion = higher(&ContactOffset::motion_mm);
-  std::array<ContactOffset, p + 1> offsets;
-  for (int i = 0; i <= p; ++i) offsets[i] = {gap[i], slid[i], motion[i]};
-  return offsets;
-}
+std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int row);
 template <int p>
 EdgeFrame frame_of_coefficient(const Problem& problem, int row, int i) {
   return problem.frame_at(row, i, p);

@@ -1,5 +1,6 @@
 #include "assembly/dual_system.hpp"
 
+#include "assembly/displacement_field.hpp"
 #include "assembly/edge_forces.hpp"
 #include "assembly/flexibility.hpp"
 #include "assembly/row_order.hpp"
@@ -77,25 +78,34 @@ void pair_points(const Problem& problem, ContactPoints& contact) {
 
 }  // namespace
 
+namespace {
+
+template <int k>
+void add_contact_points(const Problem& problem, int row, ContactPoints& contact,
+                        std::vector<double>& gap) {
+  const std::array<ContactOffset, k + 2> offset = offset_coefficients<k + 1>(problem, row);
+  for (int j = 0; j <= k; ++j) {
+    contact.boundary.push_back(row);
+    if (contact.components == 2) contact.friction.push_back(problem.friction_at(row));
+    if (!problem.has_gap()) continue;
+    const Eigen::Vector2d normal = problem.frame_of_moment(row, k, j).normal;
+    std::array<Eigen::Vector2d, k + 2> along;
+    for (int i = 0; i <= k + 1; ++i) along[i] = offset[i].along(normal);
+    const Eigen::Vector2d moment = moment_of(k, j, along);
+    gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
+  }
+}
+
+}  // namespace
+
 ContactPoints contact_points(const Problem& problem, int degree) {
   ContactPoints contact;
   contact.per_edge = degree + 1;
   contact.components = problem.has_friction() ? 2 : 1;
   std::vector<double> gap;
-  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
-    if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
-    const std::array<ContactOffset, 3> offset = problem.offset_coefficients(row);
-    for (int j = 0; j <= degree; ++j) {
-      contact.boundary.push_back(row);
-      if (contact.components == 2) contact.friction.push_back(problem.friction_at(row));
-      if (!problem.has_gap()) continue;
-      const Eigen::Vector2d normal = problem.frame_of_moment(row, degree, j).normal;
-      const std::array<Eigen::Vector2d, 3> along = {
-          offset[0].along(normal), offset[1].along(normal), offset[2].along(normal)};
-      const Eigen::Vector2d moment = moment_of_quadratic(degree, j, along);
-      gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
-    }
-  }
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (problem.mesh.boundary[row].role == BoundaryRole::contact)
+      with_degree(degree, [&](auto k) { add_contact_points<k>(problem, row, contact, gap); });
   contact.count = static_cast<int>(contact.boundary.size());
   if (!problem.opposite.empty()) pair_points(problem, contact);
   contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
@@ -185,10 +195,7 @@ std::size_t DualSystem::bytes() const {
          (dofs.of_vertex.size() + dofs.of_edge.size() + contact.boundary.size()) * sizeof(int);
 }
 
-std::string why_no_blocks(const Problem& problem, Blocks blocks, int degree) {
-  if (degree > 2 && problem.has_friction() && !problem.later_steps.empty())
-    return "stresses of degree " + std::to_string(degree) +
-           " have no load steps with friction (degrees 1 and 2 have them)";
+std::string why_no_blocks(const Problem& problem, Blocks blocks) {
   const int holes = hole_count(problem.mesh);
   if (blocks == Blocks::contact_points || holes == 0) return "";
   return "a body with " + std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
@@ -196,7 +203,7 @@ std::string why_no_blocks(const Problem& problem, Blocks blocks, int degree) {
 }
 
 DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks, int degree) {
-  if (const std::string why = why_no_blocks(*problem, blocks, degree); !why.empty())
+  if (const std::string why = why_no_blocks(*problem, blocks); !why.empty())
     throw std::invalid_argument(why);
   DualSystem system;
   system.problem = std::move(problem);

@@ -57,9 +57,8 @@ struct DualSystem {
 enum class Blocks { airy, contact_points };
 // Why a body lacks these blocks; empty: it has them. Around a hole whose forces have a resultant or
 // a moment φ changes by an affine function (Michell 1899): three unknowns per hole that are not
-// here. Without them a hole's rows of C are dependent. Above degree 2 there are no load steps with
-// friction.
-std::string why_no_blocks(const Problem& problem, Blocks blocks, int degree = 1);
+// here. Without them a hole's rows of C are dependent.
+std::string why_no_blocks(const Problem& problem, Blocks blocks);
 // Throws std::invalid_argument with the reason of why_no_blocks(). degree: of the stresses; above 1
 // only with Blocks::contact_points.
 DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks = Blocks::airy,

@@ -63,30 +63,7 @@ EdgeSigns Problem::edge_signs(int triangle) const {
 ContactOffset Problem::offset_at(const Eigen::Vector2d& x, int boundary_row) const {
   ContactOffset offset{.motion_mm = motion.at(x)};
   if (loads.gap_mm) offset.gap_mm = loads.gap_mm(x, boundary_row);
-  if (loads.slid_mm.empty()) return offset;
-  const auto [a, m, b] = loads.slid_mm[static_cast<std::size_t>(boundary_row)];
-  const auto [first, last] = mesh.boundary[boundary_row].vertices;
-  const Eigen::Vector2d &start = mesh.vertices[first], &end = mesh.vertices[last];
-  const double s = (x - start).norm() / (end - start).norm();
-  offset.slid_mm = a * (1 - s) * (1 - s) + 2 * m * s * (1 - s) + b * s * s;
   return offset;
-}
-
-std::array<ContactOffset, 3> Problem::offset_coefficients(int boundary_row) const {
-  const auto [start, end] = mesh.boundary[boundary_row].vertices;
-  const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
-  std::array<ContactOffset, 3> offsets;
-  std::array<double, 3> gap{};
-  if (const auto& g0 = loads.gap_mm)
-    gap =
-        edge_coefficients(g0(a, boundary_row), g0((a + b) / 2, boundary_row), g0(b, boundary_row));
-  for (std::size_t k = 0; k < 3; ++k) {
-    offsets[k].gap_mm = gap[k];
-    offsets[k].motion_mm = motion.at(a + static_cast<double>(k) * (b - a) / 2);  // ρ is linear
-    if (!loads.slid_mm.empty())
-      offsets[k].slid_mm = loads.slid_mm[static_cast<std::size_t>(boundary_row)][k];
-  }
-  return offsets;
 }
 
 bool Problem::contact_turns() const {
@@ -119,7 +96,7 @@ EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
   const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
   const std::array<Eigen::Vector2d, 3> coefficients =
       edge_coefficients(u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
-  for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of_quadratic(degree, j, coefficients);
+  for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of(degree, j, coefficients);
   if (is_roller(boundary_row)) {
     const Eigen::Vector2d n = edge_frame(a, b).normal;
     moments = (n * (n.transpose() * moments)).eval();

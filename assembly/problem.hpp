@@ -44,9 +44,10 @@ struct Loads {
       gap_mm;                           // g0 on Γ_C, quadratic on every edge
   std::vector<WallDetail> wall_detail;  // what gap_mm omits, per row; empty: nothing
   std::vector<bool> rollers;  // per row of Mesh::boundary: rolling edges of Γ_D; empty: none
-  // Per row of Mesh::boundary: u_t on Γ_C from which slip is measured, that of the previous load
-  // step, as Bernstein coefficients at start, middle and end of the edge's walk; empty: zero.
-  std::vector<std::array<double, 3>> slid_mm;
+  // u_t on Γ_C from which slip is measured, that of the previous load step. Per row of
+  // Mesh::boundary a column of Bernstein coefficients, from the start of the edge's walk to its
+  // end; empty: zero.
+  Eigen::MatrixXd slid_mm;
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};  // b, constant
 
   bool has_body_force() const { return !body_force_N_per_mm3.isZero(0); }
@@ -134,14 +135,13 @@ struct Problem {
   int opposite_of(int boundary_row) const {
     return opposite.empty() ? no_row : opposite[static_cast<std::size_t>(boundary_row)];
   }
-  bool has_gap() const { return loads.gap_mm || !loads.slid_mm.empty() || !motion.is_zero(); }
+  bool has_gap() const { return loads.gap_mm || loads.slid_mm.size() > 0 || !motion.is_zero(); }
   WallDetail wall_detail_at(int boundary_row) const {
     return loads.wall_detail.empty() ? WallDetail{}
                                      : loads.wall_detail[static_cast<std::size_t>(boundary_row)];
   }
-  // On an edge of Γ_C: at x; as Bernstein coefficients at start, middle and end.
+  // At x on an edge of Γ_C, without slip. Bernstein coefficients: offset_coefficients().
   ContactOffset offset_at(const Eigen::Vector2d& x, int boundary_row) const;
-  std::array<ContactOffset, 3> offset_coefficients(int boundary_row) const;
 
   // True if the law's normal changes along an edge. Stresses and displacements are then admissible
   // up to the square of that angle.

@@ -100,7 +100,7 @@ FLAG = Kind("true or false", lambda value: isinstance(value, bool),
 COUNT = Kind("a whole number, 0 or more",
              lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= 0,
              lambda cell: int(cell) if re.fullmatch("[0-9]{1,18}", cell) else cell, None, False)
-DEGREE = Kind("a whole number from 1 to 4", lambda value: COUNT.accepts(value) and 1 <= value <= 4,
+DEGREE = Kind("a whole number from 1 on", lambda value: COUNT.accepts(value) and value >= 1,
               COUNT.of_text, 1)
 POSITIVE = number("a number above 0", lambda x: x > 0)
 NOT_NEGATIVE = number("a number, 0 or more", lambda x: x >= 0)

@@ -86,8 +86,9 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
                  "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");
   app.option_defaults()->group("By which methods");
   app.add_option("--degree", texts.degree,
-                 "1 to 4, or auto: of HYBRID's stresses, instead of --method and --adapt=...,by= "
-                 "(auto: 3 for goals below 0.1%, else 2)");
+                 fmt::format("1 to {}, or auto: of HYBRID's stresses, instead of --method and "
+                             "--adapt=...,by= (auto: 3 for goals below 0.1%, else 2)",
+                             highest_degree));
   app.add_option(
       "--method", options.methods,
       "names or globs; default: the paper's, for your own bodies HYBRID and P2, next to other "

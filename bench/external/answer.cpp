@@ -92,8 +92,8 @@ Eigen::MatrixXd read_npy(const std::filesystem::path& folder, const std::string&
 }  // namespace
 
 Answer read_answer(const std::filesystem::path& folder) {
-  constexpr std::array<Status, 4> statuses = {Status::ok, Status::inaccurate, Status::not_converged,
-                                              Status::breakdown};
+  constexpr std::array<Status, 5> statuses = {Status::ok, Status::inaccurate, Status::not_converged,
+                                              Status::breakdown, Status::skipped};
   constexpr const char* seconds = "seconds, at least 0";
   constexpr std::size_t most_bytes = 1 << 20;
   const Json json =

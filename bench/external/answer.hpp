@@ -14,8 +14,8 @@
 // Arrays are Matrix Market files, "matrix array real general": numbers one per line, column by
 // column. NAME.npy (NumPy, doubles) takes precedence over NAME.mtx. time_s is the solve by the
 // program's own clock, from data in memory to the answer in memory; stages are those of
-// stage_times.hpp. status is ok, inaccurate, not_converged or breakdown; only a failure is
-// believed.
+// stage_times.hpp. status is ok, inaccurate, not_converged, breakdown or skipped (the program does
+// not take the problem; message says why); only a failure is believed.
 #pragma once
 
 #include <Eigen/Core>

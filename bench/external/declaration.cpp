@@ -120,6 +120,13 @@ Declaration read_declaration(const std::filesystem::path& file) {
       value.fail("with \"reads\": \"condensed\", a list of 1, 2 and 3");
     declaration.components = given.get<std::vector<int>>();
   };
+  const auto read_print_precision = [&](const JsonValue& value) {
+    constexpr double fewest_digits = 5e-6;  // six
+    const double given = value.json.is_number() ? value.json.get<double>() : 0;
+    if (declaration.returns != Returns::displacement || !(given > 0 && given <= fewest_digits))
+      value.fail("with \"returns\": \"displacement\", above 0, up to 5e-6: six digits");
+    declaration.print_precision = given;
+  };
   // A key comes after those that its reader uses.
   JsonValue(file.string(), "", json)
       .object({required({"name", read_name}),
@@ -133,7 +140,8 @@ Declaration read_declaration(const std::filesystem::path& file) {
                required({"returns", read_returns}),
                required({"command", read_command}),
                command_key("version", version),
-               {"first_tolerance", read_tolerance}});
+               {"first_tolerance", read_tolerance},
+               {"print_precision", read_print_precision}});
   if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);
   return declaration;
 }

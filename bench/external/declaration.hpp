@@ -5,7 +5,7 @@
 //     "reads": "airy", "format": "npz", "returns": "airy_function",
 //     "command": ["python3", "solve.py", "{input}", "{output}"],
 //     "version": ["python3", "-c", "import scipy; print('scipy', scipy.__version__)"],
-//     "first_tolerance": 0.01 }
+//     "first_tolerance": 0.01 }   (and "print_precision": 5e-7, for seven printed digits)
 //
 //   reads, returns   airy (S, C_F, C_C and loads): airy_function; condensed (D, G): contact_forces;
 //                    body (mesh, material, boundary data): displacement, or edge_displacements of
@@ -18,6 +18,8 @@
 //   version          optional, like summary; prints one line
 //   first_tolerance  optional, with {tolerance}: the first tolerance per target error, tightened
 //                    until the program's own error estimate is below the target
+//   print_precision  optional, of displacement: the largest relative rounding of a printed number,
+//                    5e-7 for seven digits. Unbalanced forces that it explains do not count
 #pragma once
 
 #include <array>
@@ -47,6 +49,7 @@ struct Declaration {
   std::vector<std::string> command;
   std::string version = "unknown version";  // printed by its version command
   double first_tolerance = 0;
+  double print_precision = 0;
 };
 
 // Excludes globs, lists and parts of paths, so that a user can select the name.

@@ -201,6 +201,7 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
   const Eigen::MatrixXd values =
       program.array("displacement_mm.mtx", displacement_nodes(problem), 2);
   Solution solution = program.take_over(control);
+  solution.program->print_precision = caller.declaration.print_precision;
   const StageTimer timer(solution.times, Stage::recover);
   solution.displacement = displacement_of(problem, values);
   solution.stress = stress_of_displacement(problem, solution.displacement);

@@ -20,7 +20,7 @@ Judge::Judge(const PosedProblem& problem, const Options& options, const LeftOut&
 void Judge::prepare(const Method& method) {
   reference(method.degree);
   if (const auto bound = bound_for(method)) discretisation(*bound, method.degree);
-  half_steps();
+  half_steps(method.degree);
 }
 
 bool Judge::is_too_large_for_reference() const {

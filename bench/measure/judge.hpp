@@ -74,7 +74,7 @@ class Judge {
   // For an external program: its displacements, made admissible.
   void note_error_of_displacement(const Solution& solution, Record& record);
   // A path with friction in twice as many steps; null without such a path or a reference.
-  const Json* half_steps();
+  const Json* half_steps(int degree);
 
   std::shared_ptr<const Problem> problem_;                   // null: there is no body
   std::shared_ptr<const contact::Problem> contact_problem_;  // null if there is a body
@@ -84,7 +84,7 @@ class Judge {
   std::string no_references_;  // why; empty: they can be had
   std::map<int, ReferencePath> references_;
   std::map<std::pair<Bound, int>, std::optional<Discretisation>> discretisation_;
-  std::optional<Json> steps_in_halves_;
+  std::map<int, Json> steps_in_halves_;  // by degree
 };
 
 }  // namespace airybench

@@ -92,8 +92,8 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
     }
     result.of_steps.push_back(shown(result.error));
     result.intervals.reset();
-    if (bound == Bound::p2 || degree > 1 || !result.error.flaw.empty()) return;
-    if (!lifts) lifts = resultant_lifts(*problem_);
+    if (bound == Bound::p2 || !result.error.flaw.empty()) return;
+    if (!lifts) lifts = resultant_lifts(*problem_, degree);
     result.intervals =
         contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
     if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());
@@ -132,15 +132,16 @@ void Judge::note_discretisation(const Method& method, Record& record) {
   }
 }
 
-const Json* Judge::half_steps() {
+const Json* Judge::half_steps(int degree) {
   if (!problem_ || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
-      reference(1) == nullptr || !discretisation_left_out_.empty())
+      reference(degree) == nullptr || !discretisation_left_out_.empty())
     return nullptr;
-  if (!steps_in_halves_) {
+  const auto [found, is_new] = steps_in_halves_.try_emplace(degree);
+  if (is_new) {
     const ActivityScope scope(board_, Activity::discretisation);
-    steps_in_halves_ = steps_in_halves(*problem_);
+    found->second = steps_in_halves(*problem_, degree);
   }
-  return &*steps_in_halves_;
+  return &found->second;
 }
 
 namespace {
@@ -162,7 +163,7 @@ void Judge::judge_discretisation(const Method& method, const std::vector<JudgedS
     note_error_of_displacement(solution, record);
   else
     note_discretisation(method, record);
-  const Json* const halves = half_steps();
+  const Json* const halves = half_steps(method.degree);
   if (halves != nullptr) record.steps_in_halves = *halves;
   if (record.status != Status::ok) return;
   if (ends_unloaded(steps)) {

@@ -148,11 +148,11 @@ Json steps_of(const std::vector<JudgedStep>& steps) {
   return list;
 }
 
-Json steps_in_halves(const Problem& first) {
+Json steps_in_halves(const Problem& first, int degree) {
   std::vector<JudgedStep> steps;
   Status first_half = Status::ok;
   double first_half_Nmm = 0;
-  solve_load_steps(select_methods("HYBRID").front(),
+  solve_load_steps(select_methods(hybrid_of_degree(degree)).front(),
                    std::make_shared<const Problem>(with_half_steps(first)), {},
                    [&](int half, const DualSystem& posed, const Solution& answer) {
                      if (!has_answer(answer.status)) return;

@@ -53,6 +53,6 @@ std::size_t worst_step(const std::vector<JudgedStep>& steps);
 Json steps_of(const std::vector<JudgedStep>& steps);
 
 // The same for HYBRID with each step in two halves, if both have an answer; dissipation adds up.
-Json steps_in_halves(const Problem& first);
+Json steps_in_halves(const Problem& first, int degree = 1);
 
 }  // namespace airybench

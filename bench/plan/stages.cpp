@@ -39,11 +39,11 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
     return "bodies in contact with each other: other programs get one body, or the condensed law";
   if (!body->opposite.empty() && !method.joins_bodies)
     return "bodies in contact with each other: its active sets hold edges at walls only";
-  const std::string why = why_no_blocks(*body, method.blocks, method.degree);
+  const std::string why = why_no_blocks(*body, method.blocks);
   if (why.empty()) return why;
   std::vector<std::string> others;
   for (const Method& other : methods())
-    if (why_no_blocks(*body, other.blocks, other.degree).empty()) others.push_back(other.name);
+    if (why_no_blocks(*body, other.blocks).empty()) others.push_back(other.name);
   return fmt::format("{} (methods without one: {})", why, fmt::join(others, ", "));
 }
 

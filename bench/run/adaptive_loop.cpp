@@ -70,11 +70,6 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   const auto start = std::chrono::steady_clock::now();
   if (!history_.empty() && !refine()) return {};
   const auto problem = std::make_shared<const Problem>(pose(scene_, mesh_));
-  if (const std::string why = why_no_blocks(*problem, Blocks::contact_points, method_.degree);
-      !why.empty()) {
-    ended_ = why;
-    return {};
-  }
   DualSystem system = assemble(problem, Blocks::contact_points, method_.degree);
 
   RunControl control;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "assembly/bernstein.hpp"
 #include "assembly/edge_forces.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
@@ -35,7 +36,7 @@ bool can_be_moved_as_one(const Mesh& mesh) {
 }
 
 // v = 0 on Γ_D, v = n or t on Γ_C (without friction only n·v = 1). Empty if HYBRID fails.
-std::optional<DisplacementField> lifted(const Problem& problem, bool tangential) {
+std::optional<DisplacementField> lifted(const Problem& problem, int degree, bool tangential) {
   Mesh mesh = problem.mesh;
   Loads loads;
   loads.rollers.assign(mesh.boundary.size(), false);
@@ -53,8 +54,8 @@ std::optional<DisplacementField> lifted(const Problem& problem, bool tangential)
   loads.displacement_mm = [on_edge](const Eigen::Vector2d&, int row) { return on_edge[row]; };
   const DualSystem system = assemble(std::make_shared<const Problem>(make_problem(
                                          std::move(mesh), problem.compliance, std::move(loads), 0)),
-                                     Blocks::contact_points);
-  const Solution solution = run(select_methods("HYBRID").front(), system, {});
+                                     Blocks::contact_points, degree);
+  const Solution solution = run(select_methods(hybrid_of_degree(degree)).front(), system, {});
   if (solution.status != Status::ok) return {};
   return with_rigid_motion(
       *system.problem,
@@ -70,6 +71,32 @@ std::optional<Bracket> resultant(const Problem& problem, const StressField& mean
     work += stress_product(problem, t, mean, strained);
   const double half = error * std::sqrt(stress_norm_squared(problem, strained));
   return Bracket{work - half, work + half};
+}
+
+// Bernstein coefficients along an edge; one more than stresses have, for their integral.
+using AlongEdge =
+    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, highest_stress_degree + 2>;
+
+struct LargestValue {
+  double value = -std::numeric_limits<double>::infinity();
+  double s = 0;  // where: from 0 to 1
+};
+
+// Of the edge and of what is known already. The values of a part lie below its largest coefficient,
+// and the error of that falls with the square of its length.
+LargestValue largest_value(const AlongEdge& c, LargestValue known = {}, double start = 0,
+                           double length = 1) {
+  constexpr double rounding = 1e-12, shortest = 1e-6;
+  const auto consider = [&](double value, double s) {
+    if (value > known.value) known = {value, s};
+  };
+  consider(c(0), start);
+  consider(c(c.size() - 1), start + length);
+  if (length < shortest || c.maxCoeff() <= known.value + rounding * c.cwiseAbs().maxCoeff())
+    return known;
+  const auto [left, right] = halved(c);
+  known = largest_value(left, known, start, length / 2);
+  return largest_value(right, known, start + length / 2, length / 2);
 }
 
 struct LargestPressure {
@@ -89,9 +116,11 @@ LargestPressure largest_pressure(const Problem& problem, const StressField& stre
       const int row = contact_row[problem.edges.of_triangle[t][k]];
       if (row < 0) continue;
       const EdgeFrame frame = frame_of(problem.mesh, row);
-      const Eigen::RowVector2d pressure = -2 / frame.length_mm * frame.normal.transpose() *
-                                          element_edge_forces(problem.vertices_of(t), stress[t], k);
-      if (pressure.maxCoeff() > peak.pressure_MPa) peak = {pressure.maxCoeff(), t, frame.normal};
+      const AlongEdge pressure = -(stress.degree() + 1) / frame.length_mm *
+                                 frame.normal.transpose() *
+                                 element_edge_forces(problem.vertices_of(t), stress[t], k);
+      const double largest = largest_value(pressure, {peak.pressure_MPa}).value;
+      if (largest > peak.pressure_MPa) peak = {largest, t, frame.normal};
     }
   return peak;
 }
@@ -107,8 +136,10 @@ void set_largest_pressure(const Problem& problem, const StressField& stress,
   const Eigen::Vector2d& n = of_stress.normal;
   const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // n⊗n as a strain
   const double stiffness_MPa = nn.dot(elasticity_of(problem.compliance_of(t)) * nn),
-               delta = std::sqrt(std::max(0.0, error.of_triangle_Nmm[t]) * stiffness_MPa /
-                                 problem.area_mm2(t));
+               own = std::sqrt(std::max(0.0, error.of_triangle_Nmm[t]) * stiffness_MPa /
+                               problem.area_mm2(t)),
+               from_afar = of_stress.pressure_MPa * error.relative * error.relative,
+               delta = own + std::max(0.0, from_afar);
   const auto [low, high] = std::minmax(of_stress.pressure_MPa, of_u.pressure_MPa);
   result.largest_pressure_within_MPa = Bracket{std::max(0.0, low - delta), high + delta};
 }
@@ -123,40 +154,53 @@ class PressureAlongFace {
     for (int turn = 0; turn < (is_closed ? 3 : 1); ++turn)  // repeats before and after
       for (const int row : rows) {
         const double length = frame_of(mesh, row).length_mm;
-        const int m = system.contact.components, p = m * point_of_row[row];
-        edges_.push_back({end_, length, -2 / length * F_C(p), -2 / length * F_C(p + m)});
+        const int m = system.contact.components, n = system.contact.per_edge;
+        const AlongEdge pressure =
+            -n / length * F_C(Eigen::seqN(m * point_of_row[row], n, m)).transpose();
+        edges_.push_back({end_, length, pressure});
         end_ += length;
       }
     const std::size_t count = rows.size(), first = is_closed ? count : 0;
     for (std::size_t k = first; k < first + count; ++k)
-      for (const bool at_end : {false, true})
-        if (const double p = at_end ? edges_[k].last : edges_[k].first; p > highest_) {
-          highest_ = p;
-          place_ = edges_[k].start + (at_end ? edges_[k].length : 0);
-          shortest_ = edges_[k].length;
-        }
-    length_ = end_ / (is_closed ? 3 : 1);
+      if (const LargestValue largest = largest_value(edges_[k].pressure, {highest_});
+          largest.value > highest_) {
+        highest_ = largest.value;
+        place_ = edges_[k].start + largest.s * edges_[k].length;
+        at_ = k;
+      }
   }
 
   double highest() const { return highest_; }
 
   ContactIntervals::Peak peak() const {
+    using enum ContactIntervals::Peak;
     constexpr double slower = 0.8;     // ratio of growths; a √x cusp has 0.7
     constexpr double smallest = 0.01;  // share of the mean; less is noise
-    constexpr int windows = 4;
-    if (std::ldexp(shortest_, windows - 1) > length_) return ContactIntervals::Peak::not_seen;
-    std::array<double, windows> mean{};
-    for (int k = 0; k < windows; ++k) mean[k] = mean_within(std::ldexp(shortest_, k));
-    const double last = mean[0] - mean[1], before = mean[1] - mean[2], first = mean[2] - mean[3];
-    const bool grows =
-        last > smallest * mean[0] && last > slower * before && before > slower * first;
-    return grows ? ContactIntervals::Peak::unbounded : ContactIntervals::Peak::bounded;
+    const double unit = edges_[at_].length, closed = closed_length();
+    const auto mean = [&](int k) { return mean_within(std::ldexp(unit, k)); };
+    if (closed < 4 * unit) return not_seen;
+    const double last = mean(0) - mean(1), before = mean(1) - mean(2), first = mean(2) - mean(3);
+    if (last <= smallest * mean(0) || last <= slower * before) return bounded;
+    if (closed < 8 * unit) return not_seen;
+    return before > slower * first ? unbounded : bounded;
   }
 
  private:
   struct Edge {
-    double start, length, first, last;
+    double start, length;
+    AlongEdge pressure;
   };
+
+  // Of the edges with pressure around the peak: beyond, a window's mean falls for want of pressure.
+  double closed_length() const {
+    const auto is_closed = [&](std::size_t k) {
+      return k < edges_.size() && edges_[k].pressure.maxCoeff() > 1e-9 * highest_;
+    };
+    std::size_t first = at_, last = at_;
+    while (is_closed(first - 1)) --first;
+    while (is_closed(last + 1)) ++last;
+    return edges_[last].start + edges_[last].length - edges_[first].start;
+  }
 
   double mean_within(double reach) const {
     const double from = std::max(0.0, place_ - reach), to = std::min(end_, place_ + reach);
@@ -164,20 +208,26 @@ class PressureAlongFace {
     for (const Edge& e : edges_) {
       const double a = std::max(from, e.start), b = std::min(to, e.start + e.length);
       if (!(a < b)) continue;
-      const double middle = ((a + b) / 2 - e.start) / e.length;
-      sum += (b - a) * ((1 - middle) * e.first + middle * e.last);
+      const Eigen::Index n = e.pressure.size();
+      AlongEdge integral = AlongEdge::Zero(n + 1);
+      for (Eigen::Index i = 0; i < n; ++i)
+        integral(i + 1) = integral(i) + e.pressure(i) / static_cast<double>(n);
+      sum += e.length * (bernstein_value(integral, (b - e.start) / e.length) -
+                         bernstein_value(integral, (a - e.start) / e.length));
     }
     return sum / (to - from);
   }
 
   std::vector<Edge> edges_;
-  double end_ = 0, length_ = 0, highest_ = 0, place_ = 0, shortest_ = 0;
+  double end_ = 0, highest_ = 0, place_ = 0;
+  std::size_t at_ = 0;  // the peak's edge
 };
 
 ContactIntervals::Peak kind_of_peak(const DualSystem& system, const Eigen::VectorXd& F_C) {
   const Mesh& mesh = system.problem->mesh;
   std::vector<int> point_of_row(mesh.boundary.size(), 0);
-  for (int p = 0; p < system.contact.count; p += 2) point_of_row[system.contact.boundary[p]] = p;
+  for (int p = 0; p < system.contact.count; p += system.contact.per_edge)
+    point_of_row[system.contact.boundary[p]] = p;
   double highest = 0;
   ContactIntervals::Peak peak = ContactIntervals::Peak::bounded;  // also without pressure
   for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact)) {
@@ -190,9 +240,9 @@ ContactIntervals::Peak kind_of_peak(const DualSystem& system, const Eigen::Vecto
   return peak;
 }
 
-// rows: of Mesh::boundary, in walking order.
+// rows: of Mesh::boundary, in walking order. of_row: the states of their points, n per edge.
 void add_ends(const Mesh& mesh, const std::vector<int>& rows,
-              const std::vector<std::array<ContactState, 2>>& of_row, int face,
+              const std::vector<std::vector<ContactState>>& of_row, int n, int face,
               std::vector<ContactEnd>& ends) {
   std::vector<double> along = {0};  // ends of edges, mm
   for (const int row : rows) along.push_back(along.back() + frame_of(mesh, row).length_mm);
@@ -205,14 +255,14 @@ void add_ends(const Mesh& mesh, const std::vector<int>& rows,
     return turns * along.back() + along[k - turns * count];
   };
   const auto state = [&](int point) {
-    const int on_face = (point + 2 * count) % (2 * count);
-    return of_row[rows[on_face / 2]][on_face % 2];
+    const int on_face = (point + n * count) % (n * count);
+    return of_row[rows[on_face / n]][on_face % n];
   };
   const std::size_t first = ends.size();
-  for (int point = is_closed ? 0 : 1; point < 2 * count; ++point) {
+  for (int point = is_closed ? 0 : 1; point < n * count; ++point) {
     if (state(point) == state(point - 1)) continue;
     ContactEnd end{face, state(point - 1), state(point), {0, 0}, {}};
-    end.along_face_mm = {at((point + 1) / 2 - 2), at(point / 2 + 2)};
+    end.along_face_mm = {at((point + n - 1) / n - 2), at(point / n + 2)};
     if (ends.size() > first && ends.back().along_face_mm.high > end.along_face_mm.low) {
       ends.back().along_face_mm.high = end.along_face_mm.high;  // intervals overlap: one end
       ends.back().after = end.after;
@@ -242,23 +292,23 @@ void add_ends(const Mesh& mesh, const std::vector<int>& rows,
 std::vector<ContactEnd> contact_ends(const DualSystem& system, const Eigen::VectorXd& F_C) {
   const Mesh& mesh = system.problem->mesh;
   const std::vector<ContactState> states = contact_states(system.contact, F_C);
-  std::vector<std::array<ContactState, 2>> of_row(mesh.boundary.size());
+  std::vector<std::vector<ContactState>> of_row(mesh.boundary.size());
   for (int p = 0; p < system.contact.count; ++p)
-    of_row[system.contact.boundary[p]][p % 2] = states[p];
+    of_row[system.contact.boundary[p]].push_back(states[p]);
   std::vector<ContactEnd> ends;
   int face = 0;
   for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact))
-    add_ends(mesh, rows, of_row, face++, ends);
+    add_ends(mesh, rows, of_row, system.contact.per_edge, face++, ends);
   return ends;
 }
 
 }  // namespace
 
-ResultantLifts resultant_lifts(const Problem& problem) {
+ResultantLifts resultant_lifts(const Problem& problem, int degree) {
   if (!problem.contact_normals.empty() || !can_be_moved_as_one(problem.mesh)) return {};
   ResultantLifts lifts;
-  lifts.normal = lifted(problem, false);
-  if (problem.has_friction()) lifts.tangential = lifted(problem, true);
+  lifts.normal = lifted(problem, degree, false);
+  if (problem.has_friction()) lifts.tangential = lifted(problem, degree, true);
   return lifts;
 }
 

@@ -11,14 +11,18 @@
 // of the problem that prescribes it; there is none if Γ_C has several normals or meets Γ_D. The
 // other intervals are estimates.
 //
-// *Pressure:* the largest values of σ and Aε(u) at contact points, widened on both sides by δ with
-// δ² = A_nnnn e_T² / |T|, the average error that the triangle's e_T² allows. An infinite pressure,
-// at the edge of a punch or a kink of a wall, has no interval. It shows in the mean pressure over
-// windows of 1, 2, 4 … edge lengths around the peak. With each halving of the window the mean
-// grows: at a smooth peak by a quarter of the step before, at a √x cusp by 0.7 of it, at a log x
-// peak by as much, at an x^−α peak by more.
+// *Pressure:* the largest values of σ and Aε(u) on Γ_C, widened on both sides by δ = √(A_nnnn e_T²
+// / |T|) + p e²/‖σ‖²: the average error that the triangle's e_T² allows, and what errors elsewhere
+// change, which by virtual work is of the order of e². The pressure p of σ is nowhere exceeded: on
+// an edge pressures lie below the largest of their control values, and edges are halved until that
+// one is a value, to 1e-12. An infinite pressure, at the edge of a punch or a kink of a wall,
+// has no interval. It shows in the mean pressure over windows of 1, 2, 4 and 8 edge lengths around
+// the peak. With each halving of the window the mean grows: at a smooth peak by a quarter of the
+// step before, at a √x cusp by 0.7 of it, at a log x peak by as much, at an x^−α peak by more.
+// Windows longer than the closed part around the peak tell nothing.
 //
-// *Ends:* between two contact points of different states, plus one edge on each side.
+// *Ends:* the edges of two neighbouring contact points of different states, plus one edge on each
+// side.
 #pragma once
 
 #include <optional>
@@ -55,14 +59,14 @@ constexpr const char* name_of(ContactIntervals::Peak peak) {
   return names[static_cast<std::size_t>(peak)];
 }
 
-// The displacements v of the resultants; they do not depend on the loads. Empty: there is none.
+// The displacements v of the resultants, for stresses of a degree; they do not depend on the loads.
+// Empty: there is none.
 struct ResultantLifts {
   std::optional<DisplacementField> normal, tangential;
 };
-ResultantLifts resultant_lifts(const Problem& problem);
+ResultantLifts resultant_lifts(const Problem& problem, int degree);
 
-// Empty without contact, and above degree 1. stress, F_C and u are those that `error` was computed
-// from.
+// Empty without contact. stress, F_C and u are those that `error` was computed from.
 std::optional<ContactIntervals> contact_intervals(
     const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
     const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts);

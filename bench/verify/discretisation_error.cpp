@@ -29,11 +29,7 @@ class FrictionGap {
     constexpr double shortest = 1e-9;
     const auto [least, largest] = std::minmax_element(u_t.begin(), u_t.end());
     if (length < shortest || !(*least < 0 && *largest > 0)) return part(u_t, start, length);
-    EdgeValues<k + 1> left = u_t, right = u_t;  // by de Casteljau's steps
-    for (int step = 1; step <= k + 1; ++step) {
-      for (int i = 0; i <= k + 1 - step; ++i) right[i] = (right[i] + right[i + 1]) / 2;
-      left[step] = right[0];
-    }
+    const auto [left, right] = halved(u_t);
     return integral(left, start, length / 2) + integral(right, start + length / 2, length / 2);
   }
 
@@ -43,19 +39,13 @@ class FrictionGap {
   double part(const EdgeValues<k + 1>& u_t, double start, double length) const {
     using Points = boost::math::quadrature::gauss<double, k + 1>;  // exact for degree 2k + 1
     const auto at = [&](double u) {
-      const double value = value_at(u_t, u);
+      const double value = bernstein_value(u_t, u);
       EdgeValues<k> bracket;
       for (int j = 0; j <= k; ++j)
         bracket[j] = std::copysign(1, value) * tangential_[j] - mu_ * normal_[j];
-      return std::abs(value) * value_at(bracket, start + u * length);
+      return std::abs(value) * bernstein_value(bracket, start + u * length);
     };
     return (k + 1) * length * Points::integrate(at, 0., 1.);
-  }
-  template <std::size_t size>
-  static double value_at(std::array<double, size> c, double s) {
-    for (std::size_t step = 1; step < size; ++step)
-      for (std::size_t i = 0; i + step < size; ++i) c[i] = (1 - s) * c[i] + s * c[i + 1];
-    return c[0];
   }
 
   double mu_;

@@ -275,18 +275,52 @@ Verification verify(const DualSystem& system, const Solution& solution,
 
 namespace {
 
-// A program's force at a vertex of two edges without friction may have any direction between their
-// normals: its law need not have their mean n, and its nodal forces, in Bernstein coefficients,
-// have another direction. What remains of the force's part t ⊥ n: max(0, |t| − |F_n| tan α), α from
-// n to an edge's normal.
+// A program's force without friction may have any direction between the normals of the two edges of
+// a vertex, and between those of the wall and of the face: its law need not have the wall's, or
+// their mean n, and its nodal forces, in Bernstein coefficients, have another direction. What
+// remains of the force's part t ⊥ n: max(0, |t| − |F_n| tan α), α from n to the farthest of an
+// edge's normals.
 double beyond_both_normals(const Problem& problem, const ControlPoints& control, int p, double F_n,
                            double t) {
   const int row = control.law.boundary[p];
   const std::array<int, 3> nodes = boundary_nodes(problem, row);
   const auto k = std::ranges::find(nodes, control.node[p]) - nodes.begin();
-  const Eigen::Vector2d of_edge =
-      control.frame(p).transpose() * problem.frame_at(row, static_cast<int>(k), 2).normal;
-  return std::max(0.0, std::abs(t) - std::max(0.0, -F_n) * std::abs(of_edge.y() / of_edge.x()));
+  const auto tangent_to = [&](const Eigen::Vector2d& normal) {
+    const Eigen::Vector2d seen = control.frame(p).transpose() * normal;
+    return std::abs(seen.y() / seen.x());
+  };
+  const auto [a, b] = problem.mesh.boundary[row].vertices;
+  const double widest =
+      std::max(tangent_to(problem.frame_at(row, static_cast<int>(k), 2).normal),
+               tangent_to(edge_frame(problem.mesh.vertices[a], problem.mesh.vertices[b]).normal));
+  return std::max(0.0, std::abs(t) - std::max(0.0, -F_n) * widest);
+}
+
+// What rounding of a program's printed numbers u to (1 ± ε) u can do to nodal forces: Σ |K| ε|u|.
+// The middle of an edge, of the coefficient c, is m = (a + 2c + b)/4, so c = 2m − (a + b)/2.
+Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementField& w,
+                                    double precision) {
+  const DisplacementField u = with_rigid_motion(problem, w);
+  Eigen::Matrix2Xd off = u.cwiseAbs();
+  const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
+  for (int edge = 0; edge < problem.edges.count(); ++edge) {
+    const auto [a, b] = problem.edges.vertices[edge];
+    const Eigen::Vector2d middle = (u.col(a) + 2 * u.col(vertices + edge) + u.col(b)) / 4;
+    off.col(vertices + edge) = 2 * middle.cwiseAbs() + (off.col(a) + off.col(b)) / 2;
+  }
+  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+  Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, off.cols());
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const QuadraticStiffness K =
+        quadratic_stiffness(quadratic_strain(problem.vertices_of(t)), problem.area_mm2(t),
+                            elasticity[problem.mesh.triangle_body[t]]);
+    const std::array<int, 6> nodes = triangle_nodes(problem, t);
+    Eigen::Matrix<double, 2, 6> own;
+    for (int m = 0; m < 6; ++m) own.col(m) = off.col(nodes[m]);
+    const Eigen::Matrix<double, 2, 6> of_triangle = (K.cwiseAbs() * own.reshaped()).reshaped(2, 6);
+    for (int m = 0; m < 6; ++m) force.col(nodes[m]) += precision * of_triangle.col(m);
+  }
+  return force;
 }
 
 }  // namespace
@@ -319,6 +353,10 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
   const PrescribedDisplacement prescribed = prescribed_displacement(problem);
   for (const auto& [node, n] : prescribed.normal)  // the roller's reaction
     balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
+  if (solution.program && solution.program->print_precision > 0)
+    balance.sum = (balance.sum.cwiseAbs() - forces_of_rounding(problem, solution.displacement,
+                                                               solution.program->print_precision))
+                      .cwiseMax(0.0);
   double unbalanced = not_transmitted(control.law, solution.F_C);
   for (std::size_t node = 0; node < prescribed.at.size(); ++node)
     if (!prescribed.at[node])

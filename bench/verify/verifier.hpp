@@ -53,7 +53,8 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 // forces at the control points (control_points.hpp). Sets no error_*, no complementary energy.
 //   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
 //                         points, over the largest nodal force of an element; a program's force
-//                         without friction may be between the normals of two edges at their vertex
+//                         without friction may be between the normals of two edges at their vertex,
+//                         or of wall and face; less what rounding to its print_precision explains
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance
 Verification verify_displacement(const DualSystem& system, const Solution& solution);
 

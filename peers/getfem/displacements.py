@@ -11,11 +11,11 @@ from time import perf_counter
 
 import getfem as gf
 import numpy as np
-from constraints import contact, loads, supports
 from scipy.spatial import cKDTree
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from answer import write_answer  # noqa: E402
+from constraints import boundary_nodes, contact, held_nodes, loads, row_along  # noqa: E402
 
 
 def finite_elements(problem):
@@ -27,9 +27,7 @@ def finite_elements(problem):
     elements.set_fem(gf.Fem("FEM_PK(2,2)"))
     nodes = cKDTree(elements.basic_dof_nodes()[:, ::2].T).query(
         np.vstack([vertices, vertices[edges].mean(1)]))[1]
-    middle = {edge: len(vertices) + i for i, edge in enumerate(map(frozenset, edges.tolist()))}
-    sides = [(a, middle[frozenset((a, b))], b) for a, b in problem["boundary"].tolist()]
-    return mesh, elements, nodes, nodes[sides]
+    return mesh, elements, nodes, nodes[boundary_nodes(problem)]
 
 
 def add_elasticity(model, mesh, elements, problem):
@@ -73,7 +71,9 @@ def solve(problem, of_coefficients):
     model = gf.Model("real")
     shear_modulus = add_elasticity(model, mesh, elements, problem)
     model.add_explicit_rhs("u", loads(problem, nodes, sides, size))
-    rows, values, held = supports(problem, sides)
+    held = held_nodes(problem, sides)
+    rows = [row_along(axis, [node], [1]) for node, (axes, _) in held.items() for axis in axes]
+    values = [value for _, of_node in held.values() for value in of_node]
     if values:  # GetFEM refuses variables of no size
         model.add_variable("reactions", len(values))
         model.add_constraint_with_multipliers("u", "reactions", spmat(rows, size), values)

@@ -38,6 +38,7 @@ struct ProgramRun {
   double wall_s = 0;            // from its start to its end
   double not_solve_s = 0;       // part of our time that its own clock leaves out: start-up, files
   std::int64_t peak_bytes = 0;  // resident, of it and its child processes
+  double print_precision = 0;   // largest relative rounding of its numbers; 0: of doubles
   std::string log;              // its log for the reader
 };
 

@@ -2,6 +2,8 @@
 
 #include <iterator>
 #include <map>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 
 #include <Eigen/LU>
@@ -14,39 +16,31 @@
 namespace airybench {
 namespace {
 
-using Slid = std::vector<std::array<double, 3>>;
-
-// The linear slip that has an edge's two moments; for stresses of degree 2 the quadratic one that
-// has its three.
-void add_of_contact_points(const ContactPoints& contact, const Eigen::VectorXd& slip, Slid& slid) {
-  for (int p = 0; p < contact.count; p += contact.per_edge) {
-    const Eigen::VectorXd moments = slip(Eigen::seqN(2 * p + 1, contact.per_edge, 2));
-    auto& edge = slid[static_cast<std::size_t>(contact.boundary[p])];
-    Eigen::Map<Eigen::Vector3d> coefficients(edge.data());
-    if (contact.per_edge == 2) {
-      const double a = 2 * moments(0) - moments(1), b = 2 * moments(1) - moments(0);
-      coefficients += Eigen::Vector3d(a, (a + b) / 2, b);
-    } else {
-      Eigen::Matrix3d of_quadratic;
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i)
-          of_quadratic(j, i) = moment_of_quadratic(2, j, Eigen::Vector3d::Unit(i));
-      coefficients += of_quadratic.inverse() * moments;
-    }
+// The polynomials of degree k that have the k + 1 moments of slip on every edge.
+void add_of_contact_points(const ContactPoints& contact, const Eigen::VectorXd& slip,
+                           Eigen::MatrixXd& slid) {
+  const int k = contact.per_edge - 1;
+  Eigen::MatrixXd moments_of(k + 1, k + 1);
+  for (int j = 0; j <= k; ++j)
+    for (int i = 0; i <= k; ++i) moments_of(j, i) = edge_moment(k, j, k, i);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(moments_of);
+  for (int p = 0; p < contact.count; p += k + 1) {
+    const Eigen::VectorXd moments = slip(Eigen::seqN(2 * p + 1, k + 1, 2));
+    slid.col(contact.boundary[p]) += factor.solve(moments);
   }
 }
 
 // Coefficients of nodes; where a node has no law, it does not slip.
 void add_of_control_points(const Problem& problem, const ControlPoints& points,
-                           const Eigen::VectorXd& slip, Slid& slid) {
+                           const Eigen::VectorXd& slip, Eigen::MatrixXd& slid) {
   std::map<int, double> of_node;
   for (int p = 0; p < points.law.count; ++p) of_node[points.node[p]] = slip(2 * p + 1);
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
     const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (const auto found = of_node.find(nodes[k]); found != of_node.end())
-        slid[static_cast<std::size_t>(row)][k] += found->second;
+    for (int i = 0; i < 3; ++i)
+      if (const auto found = of_node.find(nodes[i]); found != of_node.end())
+        slid(i, row) += found->second;
   }
 }
 
@@ -102,12 +96,17 @@ Problem with_half_steps(const Problem& first) {
   return halved;
 }
 
-std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const Solution& answer) {
+Eigen::MatrixXd slid_after(const DualSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
   if (!problem.has_friction() || system.contact.count == 0) return {};
-  Slid slid = problem.loads.slid_mm;
-  slid.resize(problem.mesh.boundary.size(), {0, 0, 0});
-  if (answer.displacement.cols() > 0) {
+  const bool in_displacements = answer.displacement.cols() > 0;
+  const Eigen::Index coefficients = in_displacements ? 3 : system.contact.per_edge;
+  Eigen::MatrixXd slid = problem.loads.slid_mm;
+  if (slid.size() == 0) slid.setZero(coefficients, std::ssize(problem.mesh.boundary));
+  if (slid.rows() != coefficients)
+    throw std::invalid_argument("slip of degree " + std::to_string(slid.rows() - 1) +
+                                " before a step of degree " + std::to_string(coefficients - 1));
+  if (in_displacements) {
     const ControlPoints points = control_points(problem);
     add_of_control_points(problem, points, less_gap(points.law, answer.contact_displacement), slid);
   } else {

@@ -18,8 +18,9 @@
 
 namespace airybench {
 
-// s of the next step: Bernstein coefficients on Γ_C, as in Loads. Empty without friction.
-std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const Solution& answer);
+// s of the next step, as in Loads: on every edge the polynomial of the stresses' degree that has
+// the moments of u_t, of P2 u_t itself. Empty without friction.
+Eigen::MatrixXd slid_after(const DualSystem& system, const Solution& answer);
 
 // The work of friction in a step, −Σ F_t Δr_t ≥ 0, N mm; zero without friction.
 double dissipation_Nmm(const DualSystem& system, const Solution& answer);

@@ -264,7 +264,7 @@ TEST(ContactOffset, ItsCoefficientsMakeTheGap) {
   const Problem problem = make_problem(mesh, {compliance({}, Plane::strain)}, loads, 0);
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
-    const auto [c0, c1, c2] = problem.offset_coefficients(row);
+    const auto [c0, c1, c2] = offset_coefficients<2>(problem, row);
     const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
                &b = mesh.vertices[mesh.boundary[row].vertices[1]];
     for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0})

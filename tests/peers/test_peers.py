@@ -33,6 +33,8 @@ FILES = {"airy_function": {"x.mtx", "F_C.mtx"}, "contact_forces": {"r.mtx"}, "di
 # Which of these scenes its pivots fail in depends on the processor's last digits.
 PIVOTS = {"siconos-lemke"}
 HARD_FOR_PIVOTS = {"nearly incompressible": {"poisson": 0.49}, "more so": {"poisson": 0.499999}}
+# The scenes that it does not take, and the words for it; the harness' own small ones are of the same kind.
+SKIPS = {"calculix-mortar": ({"much friction, body force", "pressure, rollers"}, "loads at nodes of contact edges")}
 STAGES = {"order", "precondition", "factor", "condense", "contact", "recover", "check"}
 
 
@@ -70,7 +72,16 @@ class PeerTest(ExportingTest):
                 if said["status"] == "ok":
                     self.assertLess(self.error_of_forces(folder, definition), 1e-6)
 
+    def skips(self, name: str, said: dict) -> bool:
+        scenes, words = SKIPS.get(self.peer["name"], (set(), ""))
+        if name in scenes:
+            self.assertEqual("skipped", said["status"])
+            self.assertIn(words, said["message"])
+        return name in scenes
+
     def test_the_harness_finds_no_mistake_in_it(self) -> None:
+        if self.peer["name"] in SKIPS:
+            self.skipTest("it takes none of the cases")
         ran = subprocess.run([BENCH, f"--check={self.declaration}"], capture_output=True, text=True,
                              check=False)
         self.assertEqual(0, ran.returncode, ran.stdout + ran.stderr)
@@ -86,6 +97,8 @@ class PeerTest(ExportingTest):
         for name, definition in SCENES.items():
             with self.subTest(name):
                 folder, said = self.answer(definition)
+                if self.skips(name, said):
+                    continue
                 if not self.gave_up(said):
                     self.assertEqual("ok", said["status"], said)
                 self.assertGreater(said["time_s"], 0)
@@ -128,10 +141,12 @@ class PeerTest(ExportingTest):
         if self.peer["returns"] != "displacement":
             self.skipTest("it returns no displacements of P2")
         # Contact of coefficients is P2's discretisation, that of nodes another.
-        allowed = 1e-9 if self.peer["name"] == "getfem-coefficients" else 1e-2
+        allowed = 1e-9 if self.peer["name"] in ("getfem-coefficients", "freefem-uzawa") else 1e-2
         for name, definition in SCENES.items():
             with self.subTest(name):
-                folder, _ = self.answer(definition)
+                folder, said = self.answer(definition)
+                if said["status"] == "skipped":
+                    continue
                 found = mmread(folder / "displacement_mm.mtx")
                 nodes, expected = self.displacements_of_p2(definition)
                 self.assertEqual(len(found), nodes.max() + 1)

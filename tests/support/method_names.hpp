@@ -26,6 +26,13 @@ inline std::string readable(const ::testing::TestParamInfo<Method>& info) {
   return readable_name(info.param.name);
 }
 
+// "HYBRID,HYBRID:k=2,…": by stresses of every degree.
+inline std::string hybrid_of_every_degree() {
+  std::string names = hybrid_of_degree(1);
+  for (int k = 2; k <= highest_degree; ++k) names += "," + hybrid_of_degree(k);
+  return names;
+}
+
 // Each kind of method once, the preconditioned ones with one preconditioner of every kind; but
 // those in displacements.
 inline std::vector<Method> kinds_of_methods() {

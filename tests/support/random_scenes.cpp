@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <functional>
+#include <sstream>
 
 #include "tests/support/dice.hpp"
 
@@ -125,6 +127,18 @@ Scene random_scene(unsigned seed, int number) {
   for (const int k : taken)
     scene.about += (scene.about.empty() ? "" : ", ") + changes()[k](scene, dice);
   return scene;
+}
+
+Campaign campaign(int own_count) {
+  Campaign campaign{.count = own_count};
+  if (const char* given = std::getenv("AIRYBENCH_RANDOM_SCENES")) {
+    std::istringstream text(given);
+    char comma = 0;
+    text >> campaign.first >> comma >> campaign.count >> comma >> campaign.mesh;
+    if (campaign.mesh.empty()) campaign.mesh = "Mesh0";
+    campaign.is_asked_for = true;
+  }
+  return campaign;
 }
 
 }  // namespace airybench::testing

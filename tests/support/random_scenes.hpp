@@ -2,6 +2,8 @@
 // everywhere.
 #pragma once
 
+#include <string>
+
 #include "assembly/scene.hpp"
 
 namespace airybench::testing {
@@ -9,5 +11,13 @@ namespace airybench::testing {
 // Number `number` of the sequence that `seed` begins. Its `about` says what was done to it. Some
 // cannot be posed: pose() says so.
 Scene random_scene(unsigned seed, int number);
+
+// Which ones a test tries: its own, or AIRYBENCH_RANDOM_SCENES=FIRST,COUNT[,MESH].
+struct Campaign {
+  int first = 0, count = 0;
+  std::string mesh = "Mesh0";
+  bool is_asked_for = false;
+};
+Campaign campaign(int own_count);
 
 }  // namespace airybench::testing

@@ -8,6 +8,7 @@
 #include "bench/plan/scene_file.hpp"
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
+#include "tests/support/method_names.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
@@ -142,9 +143,8 @@ TEST(Walls, ARingTurnsInItsSocketWithoutStress) {
   Scene pressed = scene;
   pressed.wall = CircularWall{{0, 0}, 29.999, CircularWall::Bodies::inside};
   const double size = Solved(pressed, mesh, "HYBRID").energy();
-  for (const char* method :
-       {"HYBRID", "HYBRID:k=2", "HYBRID:k=3", "HYBRID:k=4", "P2", "BLIND:SCHUR"})
-    EXPECT_LT(Solved(scene, mesh, method).energy(), 1e-20 * size) << method;
+  for (const Method& method : select_methods(testing::hybrid_of_every_degree() + ",P2,BLIND:SCHUR"))
+    EXPECT_LT(Solved(scene, mesh, method.name).energy(), 1e-20 * size) << method.name;
 }
 
 // Of the mean pressures of edges: largest over least, less 1.
@@ -167,17 +167,19 @@ TEST(Walls, ARingSlidesAlongItsSocketAsFinerOnesDo) {
   // Pressed from inside, its ends free to slide: a uniform pressure, the nearer the finer.
   Scene scene = socket_to_slide_in(30.001);
   scene.boundary["force"].pressure_MPa = LinearValue<double>{{40, 40}};
-  for (const char* method : {"HYBRID", "HYBRID:k=2", "HYBRID:k=3", "HYBRID:k=4"}) {
+  for (int k = 1; k <= highest_degree; ++k) {
+    const std::string method = hybrid_of_degree(k);
     const double coarse = spread_of_pressure({scene, ring_segment(2, 24), method}),
                  fine = spread_of_pressure({scene, ring_segment(4, 48), method});
     EXPECT_LT(fine, 0.7 * coarse) << method;
-    EXPECT_LT(fine, method == std::string("HYBRID") ? 0.02 : 2e-4) << method;
+    EXPECT_LT(fine, k == 1 ? 0.02 : 2e-4) << method;
   }
 }
 
 TEST(Walls, ARoundWallHasNoStrictBoundsAndNoFalseCrossingOfThem) {
   const Scene scene = socket_to_slide_in(29.99);
-  for (const char* method : {"HYBRID", "HYBRID:k=2", "HYBRID:k=3", "HYBRID:k=4"}) {
+  for (int k = 1; k <= highest_degree; ++k) {
+    const std::string method = hybrid_of_degree(k);
     const ConstitutiveError error = Solved(scene, ring_segment(2, 24), method).recovered_error();
     EXPECT_EQ(error.flaw, "") << method;
     EXPECT_FALSE(error.guaranteed) << method;

@@ -1,7 +1,9 @@
 // What other people's programs leave behind, through the bench command: truth, lies, and nonsense.
 // Every run goes on with the next program, and keeps its records.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <list>
 
 #include "tests/bench/external/programs.hpp"
@@ -68,11 +70,11 @@ TEST_F(Answers, OfTheAnswersFile) {
           {"deep", condensed, "head -c 1M /dev/zero | tr '\\0' '[' > $2/answer.json",
            "nested more than 8 deep"},
           {"no_status", condensed, says(R"({"time_s": 1e-6})"),
-           "status: is missing (allowed: ok, inaccurate, not_converged, breakdown)"},
+           "status: is missing (allowed: ok, inaccurate, not_converged, breakdown, skipped)"},
           {"strange_status", condensed, says(R"({"status": "good", "time_s": 1e-6})"),
            "status: \"good\" (allowed: ok,"},
-          {"our_status", condensed, says(R"({"status": "skipped", "time_s": 1e-6})"),
-           "status: \"skipped\" (allowed: ok,"},
+          {"our_status", condensed, says(R"({"status": "timeout", "time_s": 1e-6})"),
+           "status: \"timeout\" (allowed: ok,"},
           {"no_time", condensed, says(R"({"status": "ok"})"),
            "time_s: is missing (allowed: seconds, at least 0)"},
           {"negative", condensed, says(R"({"status": "ok", "time_s": -1})"),
@@ -92,6 +94,39 @@ TEST_F(Answers, OfTheAnswersFile) {
   expect("not_converged",
          {{"gave_up", condensed,
            says(R"({"status": "not_converged", "time_s": 1, "message": "no\nluck"})"), "no?luck"}});
+}
+
+TEST_F(Answers, AProblemThatAProgramDoesNotTakeIsSkipped) {
+  expect("skipped", {{"takes_none", body,
+                      R"(echo '{"status": "skipped", "time_s": 0, "message": "two walls"}' > )"
+                      "$2/answer.json",
+                      "two walls"}});
+  declare("takes_none", body, says(R"({"status": "skipped", "time_s": 0})"));
+  EXPECT_EQ(records_of("", 1).at("takes_none")["status_reason"], "no message");
+}
+
+// Seven printed digits leave forces that do not balance; a lie in the sixth is none of them.
+TEST_F(Answers, RoundingOfDisplacementsCountsUnlessItIsDeclared) {
+  const auto rounded = [](double value) {
+    return std::strtod(fmt::format("{:.6e}", value).c_str(), nullptr);
+  };
+  Eigen::MatrixXd u = testing::right_answer().displacement_mm;
+  write("printed.mtx", testing::market(u.unaryExpr(rounded)));
+  u(u.rows() / 2, 0) *= 1 + 1e-3;
+  write("wrong.mtx", testing::market(u.unaryExpr(rounded)));
+  const Json seven_digits = {{"print_precision", 5e-7}};
+  const auto copy = [](const std::string& name) {
+    return answers + "cp " + name + " $2/displacement_mm.mtx";
+  };
+  declare("silent", body, copy("printed.mtx"));
+  declare("declared", body, copy("printed.mtx"), seven_digits);
+  declare("wrong", body, copy("wrong.mtx"), seven_digits);
+  const auto records = records_of("", 1);
+  EXPECT_EQ(records.at("silent")["status"], "inaccurate");
+  EXPECT_EQ(records.at("declared")["status"], "ok");
+  EXPECT_EQ(records.at("wrong")["status"], "inaccurate");
+  EXPECT_GT(records.at("silent")["equilibrium_residual"], 1e-6);
+  EXPECT_EQ(records.at("declared")["equilibrium_residual"], 0);
 }
 
 // Like the last iterate of our own methods: the status stays, the errors are measured.

@@ -324,6 +324,11 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
        {Json("true"), Json::array(), Json::array({"", "a"}), Json::array({"true", 1})})
     refused(with({{"command", command}}), "command: " + command.dump() + " (allowed: a list of ");
   refused(with({{"command", {"true", "{outpt}"}}}), "command: \"{outpt}\" (allowed: {input}, ");
+  for (const Json& precision : {Json(0), Json(1e-3), Json("7")})
+    refused(with({{"reads", "body"}, {"returns", "displacement"}, {"print_precision", precision}}),
+            "print_precision: " + precision.dump() +
+                " (allowed: with \"returns\": \"displacement\", above 0, up to 5e-6: six digits)");
+  refused(with({{"print_precision", 1e-7}}), "print_precision: 1e-07 (allowed: with ");
   refused(with({{"first_tolerance", 0}}), "first_tolerance: 0 (allowed: a number > 0)");
   refused(with({{"first_tolerance", 0.1}}),
           "first_tolerance: 0.1 (allowed: with {tolerance} in the command)");

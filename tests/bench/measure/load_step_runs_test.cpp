@@ -37,7 +37,8 @@ std::vector<double> of_steps(const Record& record, const char* key) {
 }
 
 TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
-  for (const Method& method : select_methods("HYBRID,P2,3STEPD:CHOLMOD,BLIND:SCHUR,ALM:AUTO")) {
+  for (const Method& method :
+       select_methods("HYBRID,HYBRID:k=2,HYBRID:k=4,P2,3STEPD:CHOLMOD,BLIND:SCHUR,ALM:AUTO")) {
     const Record record = summarised(method);
     EXPECT_EQ(record.outcome, "ok") << method.name << ": " << record.status_reason;
     EXPECT_EQ(record.load_steps, 3);
@@ -106,6 +107,12 @@ TEST(LoadStepRuns, APathWithFrictionIsSolvedInHalfStepsToo) {
   EXPECT_NE(two.status_reason.find("with every load step in two halves "), std::string::npos)
       << two.status_reason;
   EXPECT_EQ(examined_in(2, 0.2, "P2").steps_in_halves, two.steps_in_halves);
+  const Record of_degree = examined_in(2, 0.2, "HYBRID:k=3");
+  ASSERT_EQ(of_degree.steps_in_halves.size(), 2u);
+  for (const Json& halved : of_degree.steps_in_halves)  // its own points
+    EXPECT_EQ(halved.at("n_open").get<int>() + halved.at("n_stick").get<int>() +
+                  halved.at("n_slip").get<int>(),
+              *of_degree.n_open + *of_degree.n_stick + *of_degree.n_slip);
 }
 
 // Fretting's first step sticks in 10 points, in two halves in 18; its last one is the same in both.
@@ -173,7 +180,7 @@ TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
 TEST(LoadStepRuns, WithFrictionTheErrorOfAStepIsOfItsOwnSlip) {
   Options options;
   options.fields = true;
-  for (const char* method : {"HYBRID", "P2"}) {
+  for (const char* method : {"HYBRID", "HYBRID:k=3", "P2"}) {
     const Record record = examined(sheared_and_back(), method, options);
     ASSERT_EQ(record.steps.size(), 3u);
     const std::vector<double> error = of_steps(record, "error_discretisation"),

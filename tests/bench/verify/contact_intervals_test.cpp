@@ -14,7 +14,7 @@ namespace {
 struct Judged : testing::Solved {
   ConstitutiveError of_w = error();
   std::optional<ContactIntervals> intervals = contact_intervals(
-      system, hybrid.stress, hybrid.F_C, w, of_w, resultant_lifts(*system.problem));
+      system, hybrid.stress, hybrid.F_C, w, of_w, resultant_lifts(*system.problem, system.degree));
 
   using Solved::Solved;
   double resultant(int component) const {
@@ -57,6 +57,77 @@ TEST(ContactIntervals, HoldWhatFinerMeshesSay) {
   }
 }
 
+TEST(ContactIntervals, OfEveryDegreeHoldWhatTheHighestSaysOfAFinerMesh) {
+  for (const double mu : {0.0, 0.2}) {
+    const Scene scene = {.friction = mu};
+    const Judged fine(scene, testing::catalogue_mesh("Mesh1"), highest_stress_degree);
+    const ContactIntervals& narrow = fine.intervals.value();
+    double widest = 2 * std::abs(fine.resultant(0));
+    for (int k = 1; k <= highest_stress_degree; ++k) {
+      SCOPED_TRACE(::testing::Message() << "degree " << k << ", friction " << mu);
+      const Judged coarse(scene, testing::catalogue_mesh("Mesh0"), k);
+      const ContactIntervals& wide = coarse.intervals.value();
+      EXPECT_EQ(wide.guaranteed, mu == 0);
+      ASSERT_TRUE(wide.normal_resultant_N);
+      expect_inside(*wide.normal_resultant_N, fine.resultant(0), "normal");
+      const double width = wide.normal_resultant_N->high - wide.normal_resultant_N->low;
+      EXPECT_LT(width, 0.9 * widest);
+      widest = width;
+      if (mu > 0) expect_inside(*wide.tangential_resultant_N, fine.resultant(1), "tangential");
+      ASSERT_TRUE(wide.largest_pressure_within_MPa) << name_of(wide.peak);
+      expect_inside(*wide.largest_pressure_within_MPa, narrow.largest_pressure_MPa, "pressure");
+      ASSERT_FALSE(wide.ends.empty());
+      for (const ContactEnd& end : wide.ends)
+        EXPECT_TRUE(std::ranges::any_of(narrow.ends, [&](const ContactEnd& fine_end) {
+          const auto [low, high] = fine_end.along_face_mm;
+          return end.along_face_mm.low <= low && high <= end.along_face_mm.high;
+        })) << end.at_mm.transpose();
+    }
+  }
+}
+
+// Pressure of σ at points along all contact edges, by the binomial formula.
+double largest_of_points(const Judged& s) {
+  const Problem& problem = *s.system.problem;
+  const int k = s.system.degree;
+  double largest = 0;
+  for (int p = 0; p < s.system.contact.count; p += k + 1) {
+    const auto [a, b] = problem.mesh.boundary[s.system.contact.boundary[p]].vertices;
+    const double length = (problem.mesh.vertices[b] - problem.mesh.vertices[a]).norm();
+    for (int i = 0; i <= 100; ++i) {
+      const double x = i / 100.;
+      double pressure = 0;
+      for (int j = 0; j <= k; ++j)
+        pressure -= (k + 1) / length * s.hybrid.F_C(s.system.contact.components * (p + j)) *
+                    binomial(k, j) * std::pow(x, j) * std::pow(1 - x, k - j);
+      largest = std::max(largest, pressure);
+    }
+  }
+  return largest;
+}
+
+TEST(ContactIntervals, NoPointHasMoreThanTheLargestPressure) {
+  for (const double mu : {0.0, 0.2})
+    for (int k = 1; k <= highest_stress_degree; ++k) {
+      const Judged s({.friction = mu}, testing::small_tooth(6, 5), k);
+      const double found = s.intervals.value().largest_pressure_MPa, sampled = largest_of_points(s);
+      EXPECT_GE(found, (1 - 1e-9) * sampled) << k;
+      EXPECT_LT(found, 1.01 * sampled) << k;  // and it is one of them
+    }
+}
+
+// Three edges touch: their mean pressure falls in longer windows because these are open.
+TEST(ContactIntervals, OfAFewClosedEdgesNothingIsSeen) {
+  const Scene scene = {.friction = 0, .crown_radius_mm = 50};
+  for (int k = 1; k <= highest_stress_degree; ++k) {
+    const Judged few(scene, testing::small_block(6, 12, 0), k),
+        many(scene, testing::small_block(24, 48, 0), k);
+    EXPECT_EQ(few.intervals->peak, ContactIntervals::Peak::not_seen) << k;
+    EXPECT_FALSE(few.intervals->largest_pressure_within_MPa);
+    EXPECT_EQ(many.intervals->peak, ContactIntervals::Peak::bounded) << k;
+  }
+}
+
 // A wall that ends within the face, at vertices; a crowned one.
 TEST(ContactIntervals, TheLargestPressureIsUnboundedAtTheEdgeOfAPunch) {
   const Scene punch = {.friction = 0,
@@ -64,13 +135,13 @@ TEST(ContactIntervals, TheLargestPressureIsUnboundedAtTheEdgeOfAPunch) {
                        .wall = PolylineWall{{{10, 2.5}, {10, 7.5}}}},
               crown = {.friction = 0, .crown_radius_mm = 400};
   Mesh mesh = testing::small_block(12, 12, 0);
-  for (int level = 0; level < 2; ++level) {
-    mesh = uniformly_refined(mesh);
-    const Judged pressed(punch, mesh), rolled(crown, mesh);
+  for (const int degree : {1, 1, 3}) {
+    if (degree == 1) mesh = uniformly_refined(mesh);
+    const Judged pressed(punch, mesh, degree), rolled(crown, mesh, degree);
     ASSERT_TRUE(pressed.intervals && rolled.intervals);
-    EXPECT_EQ(pressed.intervals->peak, ContactIntervals::Peak::unbounded) << level;
+    EXPECT_EQ(pressed.intervals->peak, ContactIntervals::Peak::unbounded) << degree;
     EXPECT_FALSE(pressed.intervals->largest_pressure_within_MPa);
-    EXPECT_EQ(rolled.intervals->peak, ContactIntervals::Peak::bounded) << level;
+    EXPECT_EQ(rolled.intervals->peak, ContactIntervals::Peak::bounded) << degree;
     EXPECT_TRUE(rolled.intervals->largest_pressure_within_MPa);
   }
 }

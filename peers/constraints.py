@@ -11,6 +11,25 @@ def sides_of(problem, role):
     return np.flatnonzero(problem["boundary_roles"] == ROLE[role])
 
 
+def middle_nodes(problem):
+    """{edge: node}: nodes of vertices come first, then those of the middles of edges."""
+    first = len(problem["vertices_mm"])
+    return {edge: first + i for i, edge in enumerate(map(frozenset, problem["edges"].tolist()))}
+
+
+def triangle_nodes(problem):
+    """Three vertices, then the middles of the edges from the first to the second, ..."""
+    middle = middle_nodes(problem)
+    return np.array([(a, b, c, *(middle[frozenset(ends)] for ends in ((a, b), (b, c), (c, a))))
+                     for a, b, c in problem["triangles"].tolist()])
+
+
+def boundary_nodes(problem):
+    """Start, middle, end."""
+    middle = middle_nodes(problem)
+    return np.array([(a, middle[frozenset((a, b))], b) for a, b in problem["boundary"].tolist()])
+
+
 def length_and_normal(problem, side):
     s = np.diff(problem["vertices_mm"][problem["boundary"][side]], axis=0)[0]
     length = np.hypot(*s)
@@ -39,18 +58,18 @@ def loads(problem, nodes, sides, size):
     return load.ravel()
 
 
-def supports(problem, sides):
-    """Rows and values of what is prescribed; per node the directions that are held."""
-    rows, values, held = [], [], {}
+def held_nodes(problem, sides):
+    """Of what is prescribed, {node: (directions, displacements along them)}."""
+    held = {}
     for side in sides_of(problem, "displacement"):
         axes = [length_and_normal(problem, side)[1]] if problem["rollers"][side] else np.eye(2)
-        for node, u0 in zip(sides[side], problem["u0_mm"][side].reshape(3, 2)):
+        for node, u0 in zip(sides[side].tolist(), problem["u0_mm"][side].reshape(3, 2)):
+            directions, values = held.setdefault(node, ([], []))
             for axis in axes:
-                if is_free(axis, held.get(node, [])):
-                    held.setdefault(node, []).append(axis)
-                    rows.append(row_along(axis, [node], [1]))
+                if is_free(axis, directions):
+                    directions.append(axis)
                     values.append(axis @ u0)
-    return rows, values, held
+    return held
 
 
 def is_free(axis, held):
@@ -70,7 +89,7 @@ def contact(problem, sides, held, of_coefficients):
         normals = problem["contact_normals"][side].reshape(3, 2)
         gaps = weights @ problem["gap_mm"][side]
         for k, node in enumerate(sides[side]):
-            if is_free(normals[k], held.get(node, [])):
+            if is_free(normals[k], held.get(node, [[]])[0]):
                 point = points.setdefault(node, [sides[side], weights[k], 0, np.inf, np.inf])
                 point[2] = point[2] + normals[k]
                 point[3] = min(point[3], gaps[k])
