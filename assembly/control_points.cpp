@@ -23,7 +23,7 @@ void pair_points(const Problem& problem, const PrescribedDisplacement& prescribe
     if (other == Problem::no_row) continue;
     const std::array<int, 3> nodes = boundary_nodes(problem, row),
                              others = boundary_nodes(problem, other);
-    const std::array<ContactOffset, 3> of_others = problem.offset_coefficients(other);
+    const std::array<ContactOffset, 3> of_others = offset_coefficients<2>(problem, other);
     for (int k = 0; k < 3; ++k) {
       const auto p = point_of_node.find(nodes[k]), q = point_of_node.find(others[2 - k]);
       if (p == point_of_node.end()) continue;
@@ -34,7 +34,7 @@ void pair_points(const Problem& problem, const PrescribedDisplacement& prescribe
       } else if (prescribed.at[others[2 - k]]) {
         const Eigen::Vector2d moved = prescribed.u.col(others[2 - k]) + of_others[2 - k].motion_mm;
         ContactOffset& own = offset[p->second];
-        own.gap_mm = problem.offset_coefficients(row)[k].gap_mm + of_others[2 - k].gap_mm +
+        own.gap_mm = offset_coefficients<2>(problem, row)[k].gap_mm + of_others[2 - k].gap_mm +
                      points.normal[p->second].dot(moved);
         own.slid_mm += points.frame(p->second).col(1).dot(moved) + of_others[2 - k].slid_mm;
       }
