@@ -68,9 +68,9 @@ MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, c
 
 // Where a vertex meets the other face.
 struct Hit {
-  int row;         // of the other face
-  double s;        // along it
-  double distance; // along the normal
+  int row;          // of the other face
+  double s;         // along it
+  double distance;  // along the normal
 };
 
 // One pair of faces while their mesh is changed.
@@ -100,9 +100,7 @@ class Matcher {
   const Point& x(int v) const { return mesh_.vertices[v]; }
   std::array<int, 2> ends(int row) const { return mesh_.boundary[row].vertices; }
   double length(int row) const { return (x(ends(row)[1]) - x(ends(row)[0])).norm(); }
-  Point place(int row, double s) const {
-    return (1 - s) * x(ends(row)[0]) + s * x(ends(row)[1]);
-  }
+  Point place(int row, double s) const { return (1 - s) * x(ends(row)[0]) + s * x(ends(row)[1]); }
   Point edge_normal(int row) const { return edge_frame(x(ends(row)[0]), x(ends(row)[1])).normal; }
   bool is_nearer(const std::optional<Hit>& best, double s, double t) const {
     return s >= 0 && s <= 1 && std::abs(t) <= reach_mm_ &&
@@ -318,8 +316,8 @@ void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
       for (const std::string& label : labels) {
         if (!groups.contains(label))
           refuse("contacts: between", label,
-                 "is no contact group of the mesh " + mesh.name + " (its contact groups: " +
-                     (valid.empty() ? "none" : valid) + ")");
+                 "is no contact group of the mesh " + mesh.name +
+                     " (its contact groups: " + (valid.empty() ? "none" : valid) + ")");
         if (!paired.insert(label).second)
           refuse("contacts: between", label, "again (allowed: every group in one pair)");
       }
@@ -327,16 +325,15 @@ void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
 
 class PairedEdges {
  public:
-  PairedEdges(const Mesh& mesh, const ContactPair& pair, const Scene& scene,
-              const Matcher& matcher, const std::map<int, int>& twin)
+  PairedEdges(const Mesh& mesh, const ContactPair& pair, const Scene& scene, const Matcher& matcher,
+              const std::map<int, int>& twin)
       : mesh_(mesh), pair_(pair), scene_(scene), matcher_(matcher), twin_(twin) {}
 
   // Sets the edges of both groups; returns how many pairs there are.
   int put_into(std::vector<std::optional<MatchedEdge>>& edges, double size_mm) const {
     std::map<int, int> row_at;  // of the second group, per start
     for (int row = 0; row < static_cast<int>(mesh_.boundary.size()); ++row)
-      if (is_on(1, row))
-        row_at[mesh_.boundary[row].vertices[0]] = row;
+      if (is_on(1, row)) row_at[mesh_.boundary[row].vertices[0]] = row;
     int count = 0;
     for (int row = 0; row < static_cast<int>(mesh_.boundary.size()); ++row) {
       if (!is_on(0, row)) continue;
@@ -387,8 +384,7 @@ class PairedEdges {
         of_second.normals.at(parts - i, parts) = -normal;
       }
     for (int k = 0; k < 3; ++k) {
-      const Point x = at(first, k / 2.), y = at(second, k / 2.),
-                  normal = of_first.normals.at(k, 2);
+      const Point x = at(first, k / 2.), y = at(second, k / 2.), normal = of_first.normals.at(k, 2);
       const double gap =
           (y - x).dot(normal) - to_curve(row, x, normal) - to_curve(other, y, Point(-normal));
       of_first.gap_mm[k] = gap;
@@ -409,7 +405,8 @@ class PairedEdges {
   const std::map<int, int>& twin_;
 };
 
-void check_two_pieces(const Mesh& mesh, const ContactPair& pair, const std::array<MatchingFace, 2>& faces) {
+void check_two_pieces(const Mesh& mesh, const ContactPair& pair,
+                      const std::array<MatchingFace, 2>& faces) {
   const MeshPieces pieces = pieces_of(mesh);
   std::array<std::set<int>, 2> of;
   for (const int side : {0, 1})
@@ -421,7 +418,8 @@ void check_two_pieces(const Mesh& mesh, const ContactPair& pair, const std::arra
 }
 
 // No vertex is in two pairs, or in one and at a wall.
-void check_apart(const Mesh& mesh, const ContactPair& pair, const std::array<MatchingFace, 2>& faces) {
+void check_apart(const Mesh& mesh, const ContactPair& pair,
+                 const std::array<MatchingFace, 2>& faces) {
   for (const BoundaryEdge& edge : mesh.boundary) {
     const std::string label = boundary_label(mesh, edge);
     if (edge.role != BoundaryRole::contact || pair.has(label)) continue;
@@ -445,7 +443,7 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
   const double size_mm = diagonal_mm(changed);
   for (const ContactPair& pair : scene.contacts) {
     const std::array<MatchingFace, 2> faces = {face_of(changed, pair.between[0], scene),
-                                       face_of(changed, pair.between[1], scene)};
+                                               face_of(changed, pair.between[1], scene)};
     check_two_pieces(changed, pair, faces);
     check_apart(changed, pair, faces);
     Matcher matcher(changed, faces, size_mm);

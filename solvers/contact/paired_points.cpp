@@ -81,7 +81,8 @@ Eigen::VectorXd at_both(const ContactPoints& points, const Eigen::VectorXd& F) {
   return joining(points) * F;
 }
 
-void set_means_of_pairs(const ContactPoints& points, const Eigen::Ref<const Eigen::VectorXd>& weight,
+void set_means_of_pairs(const ContactPoints& points,
+                        const Eigen::Ref<const Eigen::VectorXd>& weight,
                         Eigen::Ref<Eigen::VectorXd> rows) {
   const int m = points.components;
   for (int p = 0; p < points.count; ++p) {

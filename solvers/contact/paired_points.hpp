@@ -1,8 +1,8 @@
 // Bodies that press on each other: the contact law between both points of a pair.
 //
-// Methods condense bodies with a force at every point of each (contact_problem.hpp): ū = D F − G. In
-// their opposite frames both points of a pair have the same F, and the law acts on the sum of their
-// displacements less gaps. With T, a one for each point in the column of its pair or its own,
+// Methods condense bodies with a force at every point of each (contact_problem.hpp): ū = D F − G.
+// In their opposite frames both points of a pair have the same F, and the law acts on the sum of
+// their displacements less gaps. With T, a one for each point in the column of its pair or its own,
 //
 //   F = T F',   r' = D' F' − G' − ḡ',   D' = Tᵀ D T,   G' = Tᵀ G,   ḡ' = Tᵀ ḡ
 //
@@ -35,7 +35,8 @@ Vector sums_of_pairs(const ContactPoints& points, Vector rows) {
   return rows;
 }
 // Both become their mean, of these weights.
-void set_means_of_pairs(const ContactPoints& points, const Eigen::Ref<const Eigen::VectorXd>& weight,
+void set_means_of_pairs(const ContactPoints& points,
+                        const Eigen::Ref<const Eigen::VectorXd>& weight,
                         Eigen::Ref<Eigen::VectorXd> rows);
 
 }  // namespace airybench

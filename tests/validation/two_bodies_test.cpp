@@ -1,0 +1,322 @@
+// Bodies in contact with each other: against closed forms, a rigid wall, and each other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "assembly/matched_faces.hpp"
+#include "bench/plan/scene_file.hpp"
+#include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+#include "bench/verify/verifier.hpp"
+#include "mesh/bisection.hpp"
+#include "mesh/msh_format.hpp"
+#include "mesh/quality.hpp"
+#include "solvers/loading/load_steps.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/solved.hpp"
+
+namespace airybench::two_bodies_test {
+namespace {
+
+using Eigen::Vector2d;
+
+// Labels of the sides below, right, above and left.
+using Sides = std::array<std::string, 4>;
+
+// A block of nx × ny cells, its inner vertices moved a little.
+void add_block(Mesh& mesh, const std::string& body, const Vector2d& low, const Vector2d& high,
+               int nx, int ny, const Sides& sides) {
+  const int first = static_cast<int>(mesh.vertices.size());
+  const auto vertex = [&](int i, int j) { return first + i * (ny + 1) + j; };
+  for (int i = 0; i <= nx; ++i)
+    for (int j = 0; j <= ny; ++j) {
+      const bool inside = i > 0 && j > 0 && i < nx && j < ny;
+      const Vector2d cell((high.x() - low.x()) / nx, (high.y() - low.y()) / ny);
+      const Vector2d moved = inside ? Vector2d(0.2 * std::sin(3. * i + j), 0.2 * std::cos(i + 2. * j))
+                                    : Vector2d(0, 0);
+      mesh.vertices.push_back(low + cell.cwiseProduct(Vector2d(i, j) + moved));
+    }
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j) {
+      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+    }
+  const auto add = [&](int a, int b, const std::string& label) {
+    const BoundaryLabel parsed = *parse_boundary_label(label);
+    mesh.boundary.push_back({{a, b}, parsed.role, boundary_group(mesh, parsed.name)});
+  };
+  for (int i = 0; i < nx; ++i) {
+    add(vertex(i, 0), vertex(i + 1, 0), sides[0]);
+    add(vertex(i + 1, ny), vertex(i, ny), sides[2]);
+  }
+  for (int j = 0; j < ny; ++j) {
+    add(vertex(nx, j), vertex(nx, j + 1), sides[1]);
+    add(vertex(0, j + 1), vertex(0, j), sides[3]);
+  }
+  mesh.triangle_body.resize(mesh.triangles.size(), static_cast<int>(mesh.body_names.size()));
+  mesh.body_names.push_back(body);
+}
+
+// One 12 mm wide on another, with so many edges on each face.
+Mesh two_blocks(int lower, int upper, const std::string& left = "force") {
+  Mesh mesh;
+  mesh.name = "blocks";
+  const std::string side = left == "force" ? left : left + ":";
+  const auto of = [&](const char* body) { return left == "force" ? left : side + body; };
+  add_block(mesh, "base", {0, -6}, {12, 0}, lower, 5,
+            {"displacement:floor", "force", "contact:base", of("base")});
+  add_block(mesh, "block", {0, 0}, {12, 5}, upper, 4,
+            {"contact:block", "force", "displacement:head", of("block")});
+  validate(mesh);
+  return mesh;
+}
+
+const std::vector<std::array<int, 2>> pairs_of_meshes = {{7, 10}, {8, 8}, {5, 13}, {11, 6}};
+
+Scene pressed(double friction, const Vector2d& head_mm = {0.004, -0.01}) {
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  scene.materials = {{"base", {70000, 0.33}}, {"block", {210000, 0.3}}};
+  scene.contacts = {{.between = {{{"contact:block"}, {"contact:base"}}}, .friction = friction}};
+  scene.boundary["displacement:floor"].displacement_mm = LinearValue<Vector2d>{};
+  scene.boundary["displacement:floor"].displacement_mm->values.fill({0, 0});
+  scene.boundary["displacement:head"].displacement_mm =
+      LinearValue<Vector2d>{{head_mm, head_mm}};
+  return scene;
+}
+
+struct Solved {
+  DualSystem system;
+  Solution solution;
+
+  Solved(const Scene& scene, const Mesh& mesh, const std::string& name) {
+    const Method method = select_methods(name).front();
+    system = assemble(testing::posed(scene, mesh), method.blocks, method.degree);
+    solution = run(method, system, {});
+    EXPECT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
+  }
+  const Problem& problem() const { return *system.problem; }
+  ConstitutiveError error() const {
+    return constitutive_error(
+        system, solution.stress, solution.F_C,
+        recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
+  }
+};
+
+// Between rollers, without friction: σ_yy = −δ / Σ h (1 − ν²)/E and nothing else.
+TEST(TwoBodies, AConstantStressPassesBetweenMeshesThatDoNotMatch) {
+  Scene scene = pressed(0, {0, -0.01});
+  for (auto& label : {"displacement:floor", "displacement:head", "displacement:base", "displacement:block"}) {
+    scene.boundary[label].support = BoundaryValues::Support::normal;
+    if (!scene.boundary[label].displacement_mm)
+      scene.boundary[label].displacement_mm = scene.boundary["displacement:floor"].displacement_mm;
+  }
+  const double expected =
+      -0.01 / (6 * (1 - 0.33 * 0.33) / 70000 + 5 * (1 - 0.3 * 0.3) / 210000);
+  for (const auto& [lower, upper] : {std::array{13, 17}, {5, 24}, {8, 8}, {29, 3}})
+    for (const char* name :
+         {"HYBRID", "HYBRID:k=2", "HYBRID:k=4", "HYBRID:CHOLMOD", "3STEPD", "BLIND:SCHUR", "SSKY", "P2"}) {
+      const Solved solved(scene, two_blocks(lower, upper, "displacement"), name);
+      double off = 0;
+      for (std::size_t t = 0; t < solved.solution.stress.size(); ++t) {
+        const Eigen::Matrix3Xd stress = solved.solution.stress[t];
+        off = std::max(off, (stress.colwise() - Eigen::Vector3d(0, expected, 0)).cwiseAbs().maxCoeff());
+      }
+      EXPECT_LT(off, 1e-9 * std::abs(expected)) << name << " " << lower << " on " << upper;
+    }
+}
+
+TEST(TwoBodies, AllMethodsAgree) {
+  for (const double friction : {0., 0.3, 1.})
+    for (const auto& [lower, upper] : pairs_of_meshes) {
+      const Mesh mesh = two_blocks(lower, upper);
+      const Scene scene = pressed(friction);
+      const Solved hybrid(scene, mesh, "HYBRID");
+      const Reference reference = compute_reference(hybrid.system);
+      for (const char* name :
+           {"HYBRID", "HYBRID:CHOLMOD", "HYBRID:MUMPS", "3STEPD", "3STEPD:REFINED", "3STEPD:CHOLMOD",
+            "3STEPCG3", "SDTIC3", "SSKY", "BLIND", "BLIND:SCHUR", "BLIND:SCHUR:REFINED", "BLIND:SKY",
+            "ALM:AUTO"}) {
+        const Solved other(scene, mesh, name);
+        const WorstMeasure worst =
+            worst_measure(verify(other.system, other.solution, &reference));
+        EXPECT_LT(worst.value, 1e-6) << name << " mu " << friction << ": " << worst.name;
+        EXPECT_EQ(other.solution.F_C.size(), hybrid.solution.F_C.size());
+      }
+      for (const int degree : {2, 3}) {
+        const Solved higher(scene, mesh, hybrid_of_degree(degree));
+        const Reference own = compute_reference(higher.system);
+        EXPECT_LT(worst_measure(verify(higher.system, higher.solution, &own)).value, 1e-8);
+      }
+      const Solved p2(scene, mesh, "P2");
+      const Verification of_p2 = verify_displacement(p2.system, p2.solution);
+      EXPECT_LT(worst_measure(of_p2).value, 1e-8) << "P2, mu " << friction;
+      const Verification of_hybrid = verify(hybrid.system, hybrid.solution, &reference);
+      EXPECT_NEAR(*of_p2.normal_resultant_N / *of_hybrid.normal_resultant_N, 1, 0.03);
+    }
+}
+
+// An answer whose bodies do not press on each other with the same forces is none.
+TEST(TwoBodies, ForcesThatAreNotTransmittedAreSeen) {
+  Solved solved(pressed(0.3), two_blocks(7, 10), "HYBRID");
+  const Reference reference = compute_reference(solved.system);
+  EXPECT_LT(worst_measure(verify(solved.system, solved.solution, &reference)).value, 1e-9);
+  solved.solution.F_C(0) *= 1.001;
+  EXPECT_GT(worst_measure(verify(solved.system, solved.solution, &reference)).value, 1e-5);
+}
+
+TEST(TwoBodies, BoundsHoldAndClose) {
+  double lower = -1e300, upper = 1e300, error = 1;
+  for (int refined = 0; refined < 3; ++refined) {
+    Scene scene = pressed(0);
+    scene.mesh.refine = refined;
+    for (const int degree : {1, 2}) {
+      const Solved solved(scene, two_blocks(4, 5), hybrid_of_degree(degree));
+      const ConstitutiveError e = solved.error();
+      EXPECT_TRUE(e.guaranteed) << e.flaw;
+      EXPECT_LE(e.lower_bound_Nmm, e.upper_bound_Nmm);
+      EXPECT_LE(e.lower_bound_Nmm, upper);
+      EXPECT_GE(e.upper_bound_Nmm, lower);
+      lower = std::max(lower, e.lower_bound_Nmm);
+      upper = std::min(upper, e.upper_bound_Nmm);
+      if (degree == 1) {
+        EXPECT_LT(e.relative, error);
+        error = e.relative;
+      }
+    }
+  }
+  EXPECT_LT(upper - lower, 0.02 * std::abs(upper));
+}
+
+TEST(TwoBodies, OneThatIsVeryStiffIsARigidWall) {
+  const double friction = 0.3;
+  Scene scene = pressed(friction);
+  scene.materials["base"].young_MPa = 210000e7;
+  Mesh block;
+  block.name = "block";
+  add_block(block, "block", {0, 0}, {12, 5}, 10, 4,
+            {"contact:block", "force", "displacement:head", "force"});
+  Scene alone;
+  alone.friction = friction;
+  alone.material = {210000, 0.3};
+  alone.wall = FlatWall{{0, 0}, {0, 1}};
+  alone.displacement_mm = {0.004, -0.01};
+  for (const char* name : {"HYBRID", "HYBRID:k=3", "P2"}) {
+    const Solved both(scene, two_blocks(10, 10), name), one(alone, block, name);
+    const double energy = stress_norm_squared(one.problem(), one.solution.stress);
+    EXPECT_NEAR(stress_norm_squared(both.problem(), both.solution.stress) / energy, 1, 1e-6) << name;
+  }
+}
+
+TEST(TwoBodies, APathWithSlipDissipatesAsAtAWall) {
+  Scene scene = pressed(0.3, {0, -0.01});
+  scene.materials["base"].young_MPa = 210000e7;
+  Scene alone;
+  alone.friction = 0.3;
+  alone.material = {210000, 0.3};
+  alone.wall = FlatWall{{0, 0}, {0, 1}};
+  alone.displacement_mm = {0, -0.01};
+  for (const double x : {0.006, -0.006, 0.}) {
+    LoadStep step;
+    step.boundary["displacement:head"].displacement_mm =
+        LinearValue<Vector2d>{{Vector2d(x, -0.01), Vector2d(x, -0.01)}};
+    scene.later_steps.push_back(step);
+    LoadStep of_one;
+    of_one.displacement_mm = {x, -0.01};
+    alone.later_steps.push_back(of_one);
+  }
+  Mesh block;
+  block.name = "block";
+  add_block(block, "block", {0, 0}, {12, 5}, 10, 4,
+            {"contact:block", "force", "displacement:head", "force"});
+  for (const char* name : {"HYBRID", "HYBRID:k=2", "P2"}) {
+    const auto work = [&](const Scene& of, const Mesh& mesh) {
+      std::vector<double> works;
+      solve_load_steps(select_methods(name).front(), testing::posed(of, mesh), {},
+                       [&](int, const DualSystem& system, const Solution& answer) {
+                         EXPECT_EQ(answer.status, Status::ok) << answer.message;
+                         works.push_back(dissipation_Nmm(system, answer));
+                       });
+      return works;
+    };
+    const std::vector<double> both = work(scene, two_blocks(10, 10)), one = work(alone, block);
+    ASSERT_EQ(both.size(), 4);
+    for (std::size_t k = 1; k < 4; ++k) {
+      EXPECT_GT(one[k], 0);
+      EXPECT_NEAR(both[k] / one[k], 1, 1e-5) << name << " step " << k;
+    }
+  }
+}
+
+TEST(TwoBodies, FacesMatchOneToOneWithSomeVerticesMoved) {
+  const MatchedFaces matched = with_matched_faces(two_blocks(13, 17), pressed(0.3));
+  EXPECT_EQ(matched.inserted + 2 * matched.moved, 12 + 16);
+  EXPECT_GT(matched.moved, 0);
+  EXPECT_NO_THROW(validate(matched.mesh));
+  int pairs = 0;
+  for (std::size_t row = 0; row < matched.edges.size(); ++row)
+    if (const auto& edge = matched.edges[row]) {
+      const auto& [a, b] = matched.mesh.boundary[row].vertices;
+      const auto& [c, d] = matched.mesh.boundary[static_cast<std::size_t>(edge->opposite)].vertices;
+      EXPECT_EQ(matched.edges[static_cast<std::size_t>(edge->opposite)]->opposite, static_cast<int>(row));
+      EXPECT_LT((matched.mesh.vertices[a] - matched.mesh.vertices[d]).norm(), 1e-12);
+      EXPECT_LT((matched.mesh.vertices[b] - matched.mesh.vertices[c]).norm(), 1e-12);
+      ++pairs;
+    }
+  EXPECT_EQ(pairs, 2 * (13 + 17 - 1 - matched.moved));
+  const MatchedFaces again = with_matched_faces(matched.mesh, pressed(0.3));
+  EXPECT_EQ(again.inserted, 0);
+  EXPECT_EQ(again.moved, 0);
+}
+
+TEST(TwoBodies, APartThatFacesNothingIsFree) {
+  Mesh mesh;
+  mesh.name = "ledge";
+  add_block(mesh, "base", {0, -6}, {12, 0}, 9, 5, {"displacement:floor", "force", "contact:base", "force"});
+  add_block(mesh, "block", {3, 0.5}, {8, 5}, 4, 4, {"contact:block", "force", "displacement:head", "force"});
+  const Solved solved(pressed(0.3, {0, -0.51}), mesh, "HYBRID");
+  const Reference reference = compute_reference(solved.system);
+  EXPECT_LT(worst_measure(verify(solved.system, solved.solution, &reference)).value, 1e-9);
+  double faces = 0;
+  for (const BoundaryEdge& edge : solved.problem().mesh.boundary)
+    if (boundary_label(solved.problem().mesh, edge) == "contact:base")
+      faces += (solved.problem().mesh.vertices[edge.vertices[1]] - solved.problem().mesh.vertices[edge.vertices[0]]).norm();
+  EXPECT_NEAR(faces, 5, 1e-12);
+}
+
+TEST(TwoBodies, WhatCannotBeIsRefusedInALine) {
+  const Mesh mesh = two_blocks(7, 10);
+  const auto complaint = [&](const auto& change) {
+    Scene scene = pressed(0.3);
+    change(scene);
+    return testing::complaint_of<SceneError>([&] { pose(scene, mesh); });
+  };
+  EXPECT_EQ(complaint([](Scene& s) { s.contacts[0].between[1] = {"contact:bse"}; }),
+            "default scene: contacts: between: contact:bse is no contact group of the mesh blocks (its "
+            "contact groups: contact:base, contact:block)");
+  EXPECT_EQ(complaint([](Scene& s) { s.contacts.push_back(s.contacts[0]); }),
+            "default scene: contacts: between: contact:block again (allowed: every group in one pair)");
+  EXPECT_EQ(complaint([](Scene& s) { s.contacts.clear(); }),
+            "default scene: mesh blocks: 2 separate pieces, the piece at the vertex [0, 0] presses on no "
+            "other (allowed: one piece, or pieces that contacts join; in Gmsh, Coherence or "
+            "BooleanFragments joins surfaces that touch)");
+  EXPECT_EQ(complaint([](Scene& s) { s.contacts[0].clearance_mm = -INFINITY; }),
+            "default scene: contacts: clearance_mm: -inf (allowed: finite numbers)");
+  EXPECT_EQ(complaint([](Scene& s) { s.boundary["contact:base"].contact.friction = 0.1; }),
+            "default scene: boundary: contact:base: friction of a group in contacts (allowed: face; friction "
+            "and clearance_mm of the pair)");
+  Mesh floating = mesh;
+  for (BoundaryEdge& edge : floating.boundary)
+    if (boundary_label(floating, edge) == "displacement:head") edge.role = BoundaryRole::force;
+  Scene scene = pressed(0.3);
+  scene.boundary.erase("displacement:head");
+  EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(scene, floating); }),
+            "default scene: mesh blocks: 2 separate pieces, the piece at the vertex [0, 0] is held by "
+            "contact alone (allowed: displacement edges on every piece)");
+}
+
+}  // namespace
+}  // namespace airybench::two_bodies_test
