@@ -20,8 +20,8 @@ namespace airybench {
 int check_external(Options options) {
   require_standard_output();
   options.repetitions = 1;
-  const Method program =
-      external_method(read_declaration(options.check), options.memory_limit_bytes);
+  const Method program = external_method(for_every_value(read_declaration(options.check)).front(),
+                                         options.memory_limit_bytes);
   const std::vector<PosedScene> scenes = posed_scenes(options);
   set_threads(options.threads);
   catch_interrupts();

@@ -43,7 +43,8 @@ constexpr const char* own_body_methods = "HYBRID,P2";
 std::vector<Method> other_programs(const Options& options) {
   std::vector<Method> methods;
   for (const std::filesystem::path& file : options.externals) {
-    methods.push_back(external_method(read_declaration(file), options.memory_limit_bytes));
+    for (const Declaration& of_value : for_every_value(read_declaration(file)))
+      methods.push_back(external_method(of_value, options.memory_limit_bytes));
     const auto same = [&](const Method& m) { return m.name == methods.back().name; };
     if (std::ranges::count_if(methods, same) > 1)
       throw UsageError(fmt::format("--external: {}: another file declares {} (allowed: one)",

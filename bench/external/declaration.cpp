@@ -45,13 +45,21 @@ JsonKey command_key(const char* name, std::vector<std::string>& command) {
           }};
 }
 
-const std::string* unknown_placeholder(const std::vector<std::string>& command) {
+bool has_word(const std::vector<std::string>& command, std::string_view part) {
+  return std::ranges::any_of(command,
+                             [&](const std::string& word) { return word.find(part) != word.npos; });
+}
+
+// own: also allowed.
+const std::string* unknown_placeholder(const std::vector<std::string>& command,
+                                       const std::string& own) {
   for (const std::string& word : command)
     for (std::size_t open = word.find('{'); open != word.npos; open = word.find('{', open + 1)) {
       const std::size_t end = word.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", open + 1);
       if (end == word.npos || end == open + 1 || word[end] != '}') continue;  // other braces
       const auto& all = placeholder::all;
-      if (std::ranges::find(all, word.substr(open, end + 1 - open)) == all.end()) return &word;
+      const std::string found = word.substr(open, end + 1 - open);
+      if (std::ranges::find(all, found) == all.end() && found != own) return &word;
     }
   return nullptr;
 }
@@ -69,6 +77,10 @@ std::string version_of(const std::filesystem::path& file, const std::filesystem:
                                 shortened(fmt::format("{}", fmt::join(command, " "))),
                                 how_it_ended(end, limit_s, lines)));
   return lines.front();
+}
+
+std::string placeholder_of(const std::string& parameter) {
+  return parameter.empty() ? "" : "{" + parameter + "}";
 }
 
 }  // namespace
@@ -102,14 +114,15 @@ Declaration read_declaration(const std::filesystem::path& file) {
   };
   const auto read_command = [&](const JsonValue& value) {
     command_key("command", declaration.command).take(value);
-    if (const std::string* word = unknown_placeholder(declaration.command))
-      value.refuse(*word, fmt::format("{}", fmt::join(placeholder::all, ", ")));
+    const std::string own = placeholder_of(declaration.parameter);
+    if (const std::string* word = unknown_placeholder(declaration.command, own))
+      value.refuse(*word, fmt::format("{}{}{}", fmt::join(placeholder::all, ", "),
+                                      own.empty() ? "" : ", ", own));
+    if (!has_word(declaration.command, own)) value.fail("with " + own + ", the parameter");
   };
   const auto read_tolerance = [&](const JsonValue& value) {
     positive("first_tolerance", declaration.first_tolerance).take(value);
-    if (std::ranges::none_of(declaration.command, [](const std::string& word) {
-          return word.find(placeholder::tolerance) != word.npos;
-        }))
+    if (!has_word(declaration.command, placeholder::tolerance))
       value.fail("with {tolerance} in the command");
   };
   const auto read_components = [&](const JsonValue& value) {
@@ -127,6 +140,22 @@ Declaration read_declaration(const std::filesystem::path& file) {
       value.fail("with \"returns\": \"displacement\", above 0, up to 5e-6: six digits");
     declaration.print_precision = given;
   };
+  const auto read_parameter = [&](const JsonValue& value) {
+    const auto is_positive = [](const Json& one) { return one.is_number() && one > 0; };
+    const Json& given = value.json;
+    const std::string name = given.is_object() && given.size() == 1 ? given.begin().key() : "";
+    const auto& all = placeholder::all;
+    if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") != name.npos ||
+        std::ranges::find(all, placeholder_of(name)) != all.end() || !given[name].is_array() ||
+        given[name].empty() || !std::ranges::all_of(given[name], is_positive))
+      value.fail("one name of a to z and _ that is no other placeholder, a list of numbers > 0");
+    declaration.parameter = name;
+    for (const Json& one : given[name])
+      declaration.values.push_back(fmt::format("{:g}", one.get<double>()));
+    for (auto it = declaration.values.begin(); it != declaration.values.end(); ++it)
+      if (std::find(declaration.values.begin(), it, *it) != it)
+        value.refuse(*it, "every value once");
+  };
   // A key comes after those that its reader uses.
   JsonValue(file.string(), "", json)
       .object({required({"name", read_name}),
@@ -138,12 +167,28 @@ Declaration read_declaration(const std::filesystem::path& file) {
                required({"format", read_format}),
                {"components", read_components},
                required({"returns", read_returns}),
+               {"parameter", read_parameter},
                required({"command", read_command}),
                command_key("version", version),
                {"first_tolerance", read_tolerance},
                {"print_precision", read_print_precision}});
   if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);
   return declaration;
+}
+
+std::vector<Declaration> for_every_value(const Declaration& declaration) {
+  if (declaration.values.empty()) return {declaration};
+  const std::string own = placeholder_of(declaration.parameter);
+  std::vector<Declaration> all;
+  for (const std::string& value : declaration.values) {
+    Declaration one = declaration;
+    for (std::string& word : one.command)
+      for (std::size_t at = 0; (at = word.find(own, at)) != word.npos; at += value.size())
+        word.replace(at, own.size(), value);
+    if (!all.empty()) one.name += fmt::format(":{}={}", one.parameter, value);
+    all.push_back(std::move(one));
+  }
+  return all;
 }
 
 std::vector<std::string> printed_lines(const std::filesystem::path& file) {

@@ -15,6 +15,8 @@
 //   command          runs in this file's folder. {input}: folder of the problem's files; {output}:
 //                    empty folder for the answer (answer.hpp). Also {threads}, {tolerance},
 //                    {time_limit_s}
+//   parameter        optional, {"penalty": [5000, 500]}: a program for every value of {penalty} in
+//                    the command; the first has the plain name, others NAME:penalty=500
 //   version          optional, like summary; prints one line
 //   first_tolerance  optional, with {tolerance}: the first tolerance per target error, tightened
 //                    until the program's own error estimate is below the target
@@ -46,6 +48,8 @@ struct Declaration {
   std::string name, summary, format;
   Returns returns = Returns::airy_function;  // also tells what it reads
   std::vector<int> components;               // that it takes; empty: all
+  std::string parameter;                     // its name; empty: none
+  std::vector<std::string> values;           // of it
   std::vector<std::string> command;
   std::string version = "unknown version";  // printed by its version command
   double first_tolerance = 0;
@@ -57,6 +61,9 @@ bool is_plain_program_name(const std::string& name);
 
 // Also runs the version command. Throws FileError, one line: file, key, value, what is allowed.
 Declaration read_declaration(const std::filesystem::path& file);
+
+// One for every value of its parameter, with that value in its command.
+std::vector<Declaration> for_every_value(const Declaration& declaration);
 
 // The program's non-empty lines, shortened: the first, and the last if there are more.
 std::vector<std::string> printed_lines(const std::filesystem::path& file);

@@ -21,7 +21,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 from answer import write_answer  # noqa: E402
 from constraints import boundary_nodes, held_nodes, loads, sides_of, triangle_nodes  # noqa: E402
 
-STEEL_MPA, LENGTH_MM, STRAIN = 2e5, 10, 2e-5
+STEEL_MPA, LENGTH_MM, STRAIN = 2e5, 10, 1e-6
 HEIGHTS = 0.0, 1.0, 0.5  # of the layers of nodes; middles of edges have none half-way
 
 

@@ -63,7 +63,9 @@ TYPED_TEST(SmallCholeskyOf, AMatrixThatIsNotPositiveDefiniteIsSaidToBeNone) {
   for (const Scalar pivot : {Scalar(0), Scalar(-1), std::numeric_limits<Scalar>::quiet_NaN()}) {
     Dense<Scalar> S = Dense<Scalar>::Identity(n, n);
     S(n - 2, n - 2) = pivot;
-    EXPECT_FALSE((SmallCholesky<Scalar, n>(S).last_pivot() > 0)) << pivot;
+    const SmallCholesky<Scalar, n> cholesky(S);
+    EXPECT_FALSE(cholesky.last_pivot() > 0) << pivot;
+    EXPECT_FALSE(cholesky.independence() > 0) << pivot;
   }
 }
 

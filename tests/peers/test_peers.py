@@ -53,6 +53,7 @@ class PeerTest(ExportingTest):
         folder = Path(tempfile.mkdtemp(dir=self.folder))
         places = {"{input}": str(self.export(self.peer["format"], definition)),
                   "{output}": str(folder), "{tolerance}": "1e-13", "{threads}": "2"}
+        places |= {f"{{{name}}}": str(values[0]) for name, values in self.peer.get("parameter", {}).items()}
         command = [places.get(word, word) for word in self.peer["command"]]
         ran = subprocess.run(command, cwd=self.declaration.parent, capture_output=True, text=True,
                              check=False)

@@ -68,6 +68,12 @@ Results<k> compute(const HybridKernels<double, k>& kernels,
   return results;
 }
 
+// S_e of slivers is factorised by its root (equilibrium_element.hpp).
+template <typename Scalar, int k>
+void make_sliver(HybridInput<Scalar, k>& input, double part_of_height) {
+  for (int i = 0; i < 3; ++i) input.vertices[2 * i] *= part_of_height;
+}
+
 template <typename Values>
 bool same_bits(const Values& a, const Values& b) {
   return std::memcmp(&a, &b, sizeof(Values)) == 0;
@@ -75,10 +81,10 @@ bool same_bits(const Values& a, const Values& b) {
 
 template <int k>
 void check_bits() {
-  // 96 triangles: twelve times eight. Some get the other factor (equilibrium_element.hpp).
+  // 96 triangles: twelve times eight. Some packs have one sliver or more, two nothing else.
   std::vector<HybridInput<double, k>> inputs = inputs_of<k>(loaded_problem(8, 6));
-  for (const std::size_t t : {1, 9, 10, 64})
-    for (int i = 0; i < 3; ++i) inputs[t].vertices[2 * i] *= 1e-3;
+  for (const std::size_t t : {1, 9, 10}) make_sliver(inputs[t], 1e-3);
+  for (std::size_t t = 16; t < 32; ++t) make_sliver(inputs[t], 1e-3);
   const Results<k> baseline = compute<k>(usable_hybrid_kernels().front(), inputs, true);
   for (const HybridKernels<double, k>& kernels : usable_hybrid_kernels()) {
     const Results<k> results = compute<k>(kernels, inputs, true);
@@ -110,8 +116,12 @@ template <int k>
 void check_values() {
   constexpr double tolerance = 1e-11;
   const Problem problem = loaded_problem(4, 4);
-  const auto inputs = inputs_of<k>(problem);
-  const auto exact = inputs_of<k, long double>(problem);
+  auto inputs = inputs_of<k>(problem);
+  auto exact = inputs_of<k, long double>(problem);
+  for (const std::size_t t : {3, 20}) {
+    make_sliver(inputs[t], 0.03);
+    make_sliver(exact[t], 0.03);
+  }
   const Results<k> results = compute<k>(hybrid_kernels<double, k>(), inputs, true);
   const std::vector<double> displacement = displacements<k>(inputs.size());
   constexpr int size = StressDegree<k>::size;
@@ -131,7 +141,7 @@ void check_values() {
     EXPECT_LT(distance(results.stress[t].forces, stress.forces), tolerance) << k << ' ' << t;
     EXPECT_NEAR(results.stiffness[t].independence, static_cast<double>(stiffness.independence),
                 tolerance);
-    EXPECT_GT(stiffness.independence, 1e-3);
+    EXPECT_GT(stiffness.independence, 1e-5);
   }
 }
 

@@ -285,6 +285,26 @@ TEST_F(ExternalCommand, ASuspendedRunIsMeasuredAgain) {
   EXPECT_GE(testing::lines_of(bench_.content("runs")).size(), 4u);  // 1 + detail, memory, time
 }
 
+TEST_F(ExternalCommand, EveryValueOfAParameterIsAMethod) {
+  write_right();
+  const std::string script =
+      "cp right/* $2; [ $3 = 7 ] || printf %s "
+      "'{\"status\": \"not_converged\", \"time_s\": 0, \"message\": \"'$3'\"}' > $2/answer.json";
+  declare("many", "condensed", script,
+          {{"parameter", {{"stiffness", {7, 2.5, 1e6}}}},
+           {"command", {"sh", "-c", script, "sh", "{input}", "{output}", "{stiffness}"}}});
+  const auto records = records_of("", 1);
+  ASSERT_EQ(records.size(), 3u);
+  EXPECT_EQ(records.at("many")["status"], "ok");
+  for (const std::string value : {"2.5", "1e+06"})
+    EXPECT_EQ(records.at("many:stiffness=" + value)["status_reason"], value);
+  const auto chosen = bench_.run(
+      "--external=many.json --method=EXTERNAL:many:stiffness=2.5 --mesh=Mesh0 --dry-run");
+  EXPECT_EQ(chosen.code, 0) << chosen.err;
+  EXPECT_NE(chosen.out.find("EXTERNAL:many:stiffness=2.5"), chosen.out.npos) << chosen.out;
+  EXPECT_EQ(chosen.out.find("1e+06"), chosen.out.npos) << chosen.out;
+}
+
 TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
   const Json right = declaration("one", "condensed", {"true", "{output}"});
   const auto refused = [&](const std::string& text, const std::string& line) {
@@ -329,6 +349,17 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
             "print_precision: " + precision.dump() +
                 " (allowed: with \"returns\": \"displacement\", above 0, up to 5e-6: six digits)");
   refused(with({{"print_precision", 1e-7}}), "print_precision: 1e-07 (allowed: with ");
+  for (const Json& parameter :
+       {Json(1), Json({{"a", {1}}, {"b", {1}}}), Json({{"threads", {1}}}), Json({{"A", {1}}}),
+        Json({{"a", Json::array()}}), Json({{"a", {1, 0}}}), Json({{"a", {"1"}}})})
+    refused(with({{"parameter", parameter}}),
+            "parameter: " + parameter.dump() + " (allowed: one name of a to z and _ that ");
+  refused(with({{"parameter", {{"a", {1, 1.0}}}}, {"command", {"true", "{a}"}}}),
+          "parameter: \"1\" (allowed: every value once)");
+  refused(with({{"parameter", {{"a", {1}}}}}),
+          "command: [\"true\",\"{output}\"] (allowed: with {a}");
+  refused(with({{"parameter", {{"a", {1}}}}, {"command", {"true", "{b}"}}}),
+          "command: \"{b}\" (allowed: {input}, ");
   refused(with({{"first_tolerance", 0}}), "first_tolerance: 0 (allowed: a number > 0)");
   refused(with({{"first_tolerance", 0.1}}),
           "first_tolerance: 0.1 (allowed: with {tolerance} in the command)");
