@@ -155,9 +155,8 @@ class PressureAlongFace {
       for (const int row : rows) {
         const double length = frame_of(mesh, row).length_mm;
         const int m = system.contact.components, n = system.contact.per_edge;
-        const AlongEdge pressure =
-            -n / length * F_C(Eigen::seqN(m * point_of_row[row], n, m)).transpose();
-        edges_.push_back({end_, length, pressure});
+        const Eigen::VectorXd force = F_C(Eigen::seqN(m * point_of_row[row], n, m));
+        edges_.push_back({end_, length, AlongEdge(-n / length * force.transpose())});
         end_ += length;
       }
     const std::size_t count = rows.size(), first = is_closed ? count : 0;
