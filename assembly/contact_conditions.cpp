@@ -135,7 +135,7 @@ ReachableContact with_reachable_contact(MatchedFaces faces, const Scene& scene) 
   for (const int row : free)
     mesh.boundary[row] = {mesh.boundary[row].vertices, BoundaryRole::force,
                           boundary_group(mesh, out_of_reach)};
-  return {std::move(mesh), std::move(faces.edges), std::move(pieces_of_row)};
+  return {std::move(mesh), std::move(faces.edges), faces.changes, std::move(pieces_of_row)};
 }
 
 ContactGap contact_gap(const ReachableContact& contact, const Scene& scene) {

@@ -17,6 +17,7 @@ inline constexpr std::string_view out_of_reach = "out of reach";
 struct ReachableContact {
   Mesh mesh;
   std::vector<std::optional<MatchedEdge>> matched;  // per row
+  Problem::Matching changes;
   std::vector<std::vector<GapPiece>> pieces;
 };
 // Contact edges that meet no wall within a hundred sizes of the body and at less than 87° to their

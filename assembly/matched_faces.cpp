@@ -91,8 +91,7 @@ class Matcher {
     insert(twin);
     return twin;
   }
-  int inserted() const { return inserted_; }
-  int moved() const { return moved_; }
+  Problem::Matching changes() const { return changes_; }
   const std::vector<int>& split_rows() const { return split_rows_; }
   const Point& normal(int side, int v) const { return face_[side].normal.at(v); }
 
@@ -210,7 +209,7 @@ class Matcher {
     std::size_t k = 0;
     visit([&](double area) { fits &= area > areas[k++] / 2; });
     if (!fits) mesh_.vertices[v] = before;
-    moved_ += fits;
+    changes_.moved += fits;
     return fits;
   }
 
@@ -272,7 +271,7 @@ class Matcher {
       born.emplace_back(static_cast<int>(mesh_.vertices.size()), node.vertex);
       mesh_.vertices.push_back((1 - node.s) * x(a) + node.s * x(b));
     }
-    inserted_ += static_cast<int>(born.size());
+    changes_.inserted += static_cast<int>(born.size());
     split_rows_.push_back(row);
     mesh_.triangles[t] = {a, born.front().first, across};
     mesh_.boundary[row].vertices[1] = born.front().first;
@@ -293,7 +292,8 @@ class Matcher {
   double reach_mm_;
   std::vector<std::size_t> at_faces_;  // triangles with a vertex on a face
   std::vector<int> split_rows_;
-  int inserted_ = 0, moved_ = 0, first_born_ = 0;
+  Problem::Matching changes_;
+  int first_born_ = 0;
 };
 
 std::string listed(const std::vector<std::string>& labels) {
@@ -455,8 +455,8 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
       throw TransformError(names_of(pair) +
                            " do not face each other (allowed: groups whose outward normals point "
                            "at each other)");
-    result.inserted += matcher.inserted();
-    result.moved += matcher.moved();
+    result.changes.inserted += matcher.changes().inserted;
+    result.changes.moved += matcher.changes().moved;
     for (const int row : matcher.split_rows()) result.split_rows.push_back(row);
   }
   for (const ContactPair& pair : scene.contacts)

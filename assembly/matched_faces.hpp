@@ -35,7 +35,7 @@ struct MatchedEdge {
 struct MatchedFaces {
   Mesh mesh;
   std::vector<std::optional<MatchedEdge>> edges;  // per row of Mesh::boundary
-  int inserted = 0, moved = 0;                    // vertices
+  Problem::Matching changes = {};
   std::vector<int> split_rows;  // of the given mesh's boundary, with vertices inserted
 };
 inline constexpr double snapping = 0.15;

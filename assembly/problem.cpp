@@ -161,6 +161,7 @@ Problem with_loads(const Problem& problem, Loads loads) {
                  .friction = problem.friction,
                  .contact_normals = problem.contact_normals,
                  .opposite = problem.opposite,
+                 .matching = problem.matching,
                  .central_vertices = problem.central_vertices};
   take_out_rigid_motion(result);
   return result;

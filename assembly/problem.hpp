@@ -110,6 +110,9 @@ struct Problem {
   // wall. Empty: walls only. Its points match those of this edge, and its frames are opposite.
   static constexpr int no_row = -1;
   std::vector<int> opposite = {};
+  struct Matching {  // of those edges: vertices of the mesh that were put in and moved for it
+    int inserted = 0, moved = 0;
+  } matching = {};
   // Load steps after this one, with the whole u0. Slip is measured from the previous step, so they
   // are posed one by one (load_steps.hpp).
   std::vector<Loads> later_steps = {};

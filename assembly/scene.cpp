@@ -195,11 +195,6 @@ void check_loads(const Scene& scene, const std::string& prefix, const BoundaryCo
          "(allowed: finite numbers)");
 }
 
-bool is_paired(const Scene& scene, const std::string& label) {
-  return std::ranges::any_of(scene.contacts,
-                             [&](const ContactPair& pair) { return pair.has(label); });
-}
-
 void check_contacts(const Scene& scene) {
   for (const ContactPair& pair : scene.contacts) {
     if (pair.friction && (!(*pair.friction >= 0) || !std::isfinite(*pair.friction)))
@@ -321,6 +316,11 @@ std::vector<Loads> loads_of_steps(const Scene& scene, const ReachableContact& co
 
 }  // namespace
 
+bool is_paired(const Scene& scene, const std::string& label) {
+  return std::ranges::any_of(scene.contacts,
+                             [&](const ContactPair& pair) { return pair.has(label); });
+}
+
 void check_values(const Scene& scene) {
   check_material(scene, "", scene.material);
   for (const auto& [body, material] : scene.materials)
@@ -360,6 +360,7 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
       make_problem(std::move(mesh), std::move(by_body), std::move(steps.front()), friction);
   problem.contact_normals = std::move(normals);
   problem.opposite = std::move(opposite);
+  problem.matching = contact.changes;
   check_rollers_at_pairs(scene, problem);
   problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),
                              std::make_move_iterator(steps.end()));

@@ -75,6 +75,9 @@ struct SceneError : InputError {
   using InputError::InputError;
 };
 
+// Whether a group of contact edges presses on another body.
+bool is_paired(const Scene& scene, const std::string& label);
+
 // Throws SceneError if a value is impossible on any mesh: ν ≥ 0.5, μ < 0, E ≤ 0, …
 void check_values(const Scene& scene);
 

@@ -15,6 +15,7 @@
 #include "bench/plan/scene_file.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/problems/problem_files.hpp"
+#include "mesh/quality.hpp"
 #include "mesh/selection.hpp"
 #include "support/called_as.hpp"
 #include "support/errors.hpp"
@@ -45,9 +46,20 @@ std::vector<SceneFile> read_scenes(const Options& options) {
 void note_out_of_reach(const PosedScene& posed) {
   const Mesh& mesh = posed.body()->mesh;
   if (const int free = edges_out_of_reach(*posed.body()); free > 0)
-    std::cerr << fmt::format("note: {}/{}: {} of {} contact edges meet no wall, and are free\n",
+    std::cerr << fmt::format("note: {}/{}: {} of {} contact edges meet {}, and are free\n",
                              mesh.name, posed.scene_name, free,
-                             free + mesh_sizes(mesh).contact_edges);
+                             free + mesh_sizes(mesh).contact_edges,
+                             posed.body()->opposite.empty() ? "no wall" : "no other body or wall");
+}
+
+void note_matching(const PosedScene& posed) {
+  const auto& [inserted, moved] = posed.body()->matching;
+  if (inserted + moved > 0)
+    std::cerr << fmt::format(
+        "note: {}/{}: faces that press on each other are matched: {} vertices put in, {} moved, "
+        "smallest angle {:.1f}°\n",
+        posed.body()->mesh.name, posed.scene_name, inserted, moved,
+        mesh_quality(posed.body()->mesh).smallest_angle_deg);
 }
 
 void note_no_wall(const Mesh& mesh, const Scene& scene) {
@@ -57,6 +69,7 @@ void note_no_wall(const Mesh& mesh, const Scene& scene) {
     if (edge.role != BoundaryRole::contact) continue;
     const std::string label = boundary_label(mesh, edge);
     const auto values = scene.boundary.find(label);
+    if (is_paired(scene, label)) continue;
     if (values == scene.boundary.end() || !values->second.contact.wall) without.insert(label);
   }
   if (!without.empty())
@@ -174,6 +187,7 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
                        definition, std::make_shared<const Problem>(pose(scene, file.mesh))});
       note_out_of_reach(posed.back());
+      note_matching(posed.back());
       if (!is_of_catalogue(file.path)) {
         note_no_wall(file.mesh, scene);
         note_polygons(file.mesh, scene);

@@ -59,8 +59,9 @@ TEST_P(OwnBodies, RecordsCanBeReplayed) {
   EXPECT_EQ(replayed.code, 0) << replayed.err << replayed.out;
 }
 
-const std::vector<const char*> few = {"cylinder", "plate"},
-                               all = {"punch", "dovetail", "cylinder", "L", "plate", "ring"};
+const std::vector<const char*> few = {"cylinder", "plate", "stack"},
+                               all = {"punch", "dovetail", "cylinder",  "L",        "plate",
+                                      "ring",  "stack",    "cylinders", "indenter", "lug"};
 INSTANTIATE_TEST_SUITE_P(Of, OwnBodies, ::testing::ValuesIn(testing::sanitized ? few : all),
                          [](const auto& body) { return std::string(body.param); });
 
