@@ -137,6 +137,32 @@ Json wall_at(const std::vector<FaceCurve>& curves) {
   return {{"flat", {{"point_mm", rounded(point)}, {"normal", rounded(-outward)}}}};
 }
 
+bool face_each_other(const std::vector<FaceCurve>& one, const std::vector<FaceCurve>& other) {
+  struct Edge {
+    Eigen::Vector2d middle, normal;
+    double length;
+  };
+  const auto edges_of = [](const std::vector<FaceCurve>& curves) {
+    std::vector<Edge> edges;
+    for (const FaceCurve& curve : curves)
+      for (const Walk& walk : curve.walks)
+        for (std::size_t k = 1; k < walk.size(); ++k) {
+          const Eigen::Vector2d along = walk[k] - walk[k - 1];
+          edges.push_back({(walk[k] + walk[k - 1]) / 2,
+                           Eigen::Vector2d(along.y(), -along.x()).normalized(), along.norm()});
+        }
+    return edges;
+  };
+  const std::vector<Edge> first = edges_of(one), second = edges_of(other);
+  const auto facing = std::ranges::count_if(first, [&](const Edge& a) {
+    return std::ranges::any_of(second, [&](const Edge& b) {
+      return a.normal.dot(b.normal) < -0.5 &&
+             (a.middle - b.middle).norm() <= std::max(a.length, b.length);
+    });
+  });
+  return 3 * facing >= std::ssize(first);
+}
+
 std::map<std::string, std::vector<double>> corners_of_curves(const Mesh& mesh, const Scene& scene) {
   constexpr double degree = std::numbers::pi / 180, least = 0.2, most = 35;
   std::map<std::string, std::vector<double>> corners;

@@ -42,6 +42,10 @@ Json face_on(const Circle& circle);
 // wall against their mean outward normal.
 Json wall_at(const std::vector<FaceCurve>& curves);
 
+// Whether a third of the edges of one have an edge of the other in front of or behind them, facing
+// them, no farther than the longer of both edges.
+bool face_each_other(const std::vector<FaceCurve>& one, const std::vector<FaceCurve>& other);
+
 // Groups of contact edges that meet a wall as the polygon of a meshed curve: the turns at their
 // corners in degrees, three at least. Their peaks of stress are the polygon's, not the curve's, and
 // refinement finds them.

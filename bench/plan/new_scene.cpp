@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <iostream>
 #include <set>
@@ -104,6 +105,35 @@ std::vector<NamedCurve> curves_of(const Json& shown) {
   return curves;
 }
 
+// The contact faces that face another one, in pairs, by their names.
+std::vector<std::array<std::string, 2>> facing_faces(const std::vector<NamedCurve>& curves) {
+  std::set<std::string> faces;
+  for (const NamedCurve& curve : curves)
+    if (is_contact(curve.face)) faces.insert(curve.face);
+  std::vector<std::array<std::string, 2>> pairs;
+  while (!faces.empty()) {
+    const std::string one = faces.extract(faces.begin()).value();
+    const std::vector<FaceCurve> shape = shapes_of(curves, &NamedCurve::face, one);
+    const auto other = std::ranges::find_if(faces, [&](const std::string& face) {
+      const std::vector<FaceCurve> of_face = shapes_of(curves, &NamedCurve::face, face);
+      return face_each_other(shape, of_face) || face_each_other(of_face, shape);
+    });
+    if (other == faces.end()) continue;
+    pairs.push_back({one, *other});
+    faces.erase(other);
+  }
+  return pairs;
+}
+
+// The groups of a face: one, or one for each shape.
+Json labels_of(const std::vector<NamedCurve>& curves, const std::string& face) {
+  std::set<std::string> labels;
+  for (const NamedCurve& curve : curves)
+    if (curve.face == face) labels.insert(curve.label);
+  return labels.size() == 1 ? Json(*labels.begin()) : Json(labels);
+}
+
+// whole_face: none where it presses on another body.
 Json values_to_fill_in(const std::string& label, const std::vector<FaceCurve>& curves,
                        const std::vector<FaceCurve>& whole_face) {
   switch (parse_boundary_label(label)->role) {
@@ -114,8 +144,9 @@ Json values_to_fill_in(const std::string& label, const std::vector<FaceCurve>& c
     case BoundaryRole::contact:
       break;
   }
-  Json values = {
-      {"friction", Scene().friction}, {"clearance_mm", 0}, {"wall", wall_at(whole_face)}};
+  Json values = Json::object();
+  if (!whole_face.empty())
+    values = {{"friction", Scene().friction}, {"clearance_mm", 0}, {"wall", wall_at(whole_face)}};
   if (const std::optional<Circle> circle = common_circle(curves)) values["face"] = face_on(*circle);
   return values;
 }
@@ -142,14 +173,24 @@ std::string new_scene_text(const std::filesystem::path& model, const Options& op
   const Json of_material = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
   Json roles = Json::object(), boundary = Json::object(), materials = Json::object();
   const std::vector<NamedCurve> curves = curves_of(shown);
+  Json contacts = Json::array();
+  std::set<std::string> paired;
+  for (const auto& [one, other] : facing_faces(curves)) {
+    contacts.push_back(
+        {{"between", Json::array({labels_of(curves, one), labels_of(curves, other)})},
+         {"friction", Scene().friction},
+         {"clearance_mm", 0}});
+    paired.insert({one, other});
+  }
   for (const NamedCurve& curve : curves) {
     if (std::ranges::find(curve.names, curve.label) == curve.names.end())
       roles[curve.names.empty() || curve.label != curve.face ? curve.number : curve.names.front()] =
           curve.label;
     if (!boundary.contains(curve.label))
-      boundary[curve.label] =
-          values_to_fill_in(curve.label, shapes_of(curves, &NamedCurve::label, curve.label),
-                            shapes_of(curves, &NamedCurve::face, curve.face));
+      boundary[curve.label] = values_to_fill_in(
+          curve.label, shapes_of(curves, &NamedCurve::label, curve.label),
+          paired.contains(curve.face) ? std::vector<FaceCurve>()
+                                      : shapes_of(curves, &NamedCurve::face, curve.face));
   }
   for (const Json& body : shown["bodies"]) materials[body.get<std::string>()] = of_material;
   note_missing_roles(boundary, model_name(model) + ".json");
@@ -160,6 +201,7 @@ std::string new_scene_text(const std::filesystem::path& model, const Options& op
       "\"displacement_mm\": [0, 0]",
       "\"body_force_N_per_mm3\": [0, 0]",
       fmt::format("\"boundary\": {}", in_lines(boundary))};
+  if (!contacts.empty()) lines.push_back(fmt::format("\"contacts\": {}", json_text(contacts)));
   if (!roles.empty())
     lines.insert(lines.begin() + 1, fmt::format("\"roles\": {}", in_lines(roles)));
   return fmt::format("{{\n  {}\n}}\n", fmt::join(lines, ",\n  "));

@@ -59,6 +59,25 @@ TEST_P(OwnBodies, RecordsCanBeReplayed) {
   EXPECT_EQ(replayed.code, 0) << replayed.err << replayed.out;
 }
 
+// Two bodies' faces are proposed as a pair, with their shapes and without walls.
+TEST_P(OwnBodies, FacesOfDifferentBodiesAreProposedInPairs) {
+  if (GetParam() != std::string("stack")) return;
+  const testing::CommandResult made = bench_.run("--new-scene=" + body(".geo"));
+  ASSERT_EQ(made.code, 0) << made.err;
+  const Json scene = Json::parse(bench_.content("stack.json"));
+  const std::vector<Json> expected = {Json::array({"contact:first", "contact:second_below"}),
+                                      Json::array({"contact:second_above", "contact:third"})};
+  ASSERT_EQ(scene["contacts"].size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(scene["contacts"][k]["between"], expected[k]);
+  EXPECT_FALSE(scene["boundary"]["contact:first"].contains("wall"));
+  const testing::CommandResult cg = bench_.run(
+      "--mesh=" + body(".geo") + " --scene=" + body(".json") + " --method=HYBRID:CG --out=o",
+      "export AIRYBENCH_CACHE_DIR=cache; ");
+  EXPECT_EQ(bench_.records().at(0)["status"], "skipped") << cg.err;
+  EXPECT_NE(cg.out.find("active sets hold edges at walls only"), std::string::npos) << cg.out;
+  EXPECT_NE(cg.err.find("faces that press on each other are matched: "), std::string::npos);
+}
+
 const std::vector<const char*> few = {"cylinder", "plate", "stack"},
                                all = {"punch", "dovetail", "cylinder",  "L",        "plate",
                                       "ring",  "stack",    "cylinders", "indenter", "lug"};
