@@ -250,7 +250,8 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
     answer = {{"F_C_error_estimate", reference.error_estimate},
               {"F_C_natural_map_residual", reference.natural_map_residual}};
     exported.answer = of_first(points.contact, reference.F_C);
-    exported.append_condensed(joined(reference.condensed), &problem);
+    reference.condensed = joined(reference.condensed);  // exported refers to it
+    exported.append_condensed(reference.condensed, &problem);
   }
   if (!fclib && !exported.airy)
     result.notes.push_back(
