@@ -3,7 +3,7 @@
 // Tractions that are polynomials on every edge pass exactly from one body to another only where
 // their nodes match. So the contact triangles of each side are split at the nodes of the other: a
 // new node is joined to the vertex across, and nothing spreads. A vertex nearer to one of the other
-// side than `snapping` of the shorter edge at either is moved along its face to meet it instead,
+// side than 0.15 of the shorter edge at either is moved along its face to meet it instead,
 // unless it is an end or a corner.
 //
 // Points match along the normals of the first face, which turn linearly between its vertices (the
@@ -38,7 +38,6 @@ struct MatchedFaces {
   Problem::Matching changes = {};
   std::vector<int> split_rows;  // of the given mesh's boundary, with vertices inserted
 };
-inline constexpr double snapping = 0.15;
 
 // Takes a valid mesh. Throws TransformError, "contacts: …": a label that is no contact group, or
 // given twice; faces that do not face each other, or that overlap by more than a tenth of the

@@ -1,0 +1,285 @@
+#include "assembly/face_matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "assembly/edge_forces.hpp"
+
+namespace airybench {
+namespace {
+
+using Point = Eigen::Vector2d;
+constexpr double least_facing = 0.5;  // of −n·m: faces up to 60° from parallel
+
+// Of the curve that an edge of normal m stands for.
+std::optional<Point> normal_of_curve(const std::optional<Wall>& face, const Point& x,
+                                     const Point& m) {
+  if (!face) return {};
+  std::optional<Point> n = direction_towards(*face, x);
+  if (n && n->dot(m) < 0) *n *= -1;
+  return n;
+}
+
+// Where a vertex meets the other face.
+struct Hit {
+  int row;          // of the other face
+  double s;         // along it
+  double distance;  // along the normal
+};
+
+// One pair of faces while their mesh is changed.
+class Matcher {
+ public:
+  Matcher(Mesh& mesh, std::array<MatchingFace, 2> faces, double reach_mm)
+      : mesh_(mesh), face_(std::move(faces)), reach_mm_(reach_mm) {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (std::ranges::any_of(mesh_.triangles[t], [&](int v) {
+            return face_[0].normal.contains(v) || face_[1].normal.contains(v);
+          }))
+        at_faces_.push_back(t);
+  }
+
+  FaceMatching match() {
+    std::map<int, int> twin = snap();
+    insert(twin);
+    return {std::move(twin), {face_[0].normal, face_[1].normal}, changes_, split_rows_};
+  }
+
+ private:
+  const Point& x(int v) const { return mesh_.vertices[v]; }
+  std::array<int, 2> ends(int row) const { return mesh_.boundary[row].vertices; }
+  double length(int row) const { return (x(ends(row)[1]) - x(ends(row)[0])).norm(); }
+  Point place(int row, double s) const { return (1 - s) * x(ends(row)[0]) + s * x(ends(row)[1]); }
+  Point edge_normal(int row) const { return edge_frame(x(ends(row)[0]), x(ends(row)[1])).normal; }
+  bool is_nearer(const std::optional<Hit>& best, double s, double t) const {
+    return s >= 0 && s <= 1 && std::abs(t) <= reach_mm_ &&
+           (!best || std::abs(t) < std::abs(best->distance));
+  }
+
+  // From a vertex of the first face along its normal.
+  std::optional<Hit> on_second(int v) const {
+    const Point n = face_[0].normal.at(v);
+    std::optional<Hit> best;
+    for (const int row : face_[1].rows) {
+      const auto [from, to] = ends(row);
+      const Point along = x(to) - x(from), d = x(v) - x(from);
+      const double across = cross(along, n);
+      if (edge_normal(row).dot(n) > -least_facing || across == 0) continue;
+      const double s = clamped(cross(d, n) / across), t = cross(d, along) / across;
+      if (is_nearer(best, s, t)) best = Hit{row, s, t};
+    }
+    return best;
+  }
+  // From a vertex of the second face against the normal at the place met: with x(s) and n(s) linear
+  // along an edge, cross(v − x(s), n(s)) = 0 is quadratic in s.
+  std::optional<Hit> on_first(int v) const {
+    std::optional<Hit> best;
+    for (const int row : face_[0].rows) {
+      const auto [from, to] = ends(row);
+      const Point d = x(v) - x(from), along = x(to) - x(from), n = face_[0].normal.at(from),
+                  turn = face_[0].normal.at(to) - n;
+      if (edge_normal(row).dot(face_[1].normal.at(v)) > -least_facing) continue;
+      const double a = -cross(along, turn), b = cross(d, turn) - cross(along, n), c = cross(d, n);
+      const double root = b * b - 4 * a * c;
+      if (root < 0) continue;
+      // The root that stays where a is zero.
+      const double at = clamped(-2 * c / (b + std::copysign(std::sqrt(root), b)));
+      const double t = (x(v) - place(row, at)).dot((n + at * turn).normalized());
+      if (is_nearer(best, at, t)) best = Hit{row, at, t};
+    }
+    return best;
+  }
+  // Rounding beyond an end counts as the end.
+  static double clamped(double s) {
+    constexpr double rounding = 1e-9;
+    if (std::abs(s) < rounding) return 0;
+    return std::abs(s - 1) < rounding ? 1 : s;
+  }
+
+  std::map<int, double> shortest_edges(int side) const {
+    std::map<int, double> shortest;
+    for (const int row : face_[side].rows)
+      for (const int v : ends(row)) {
+        const auto [found, is_new] = shortest.try_emplace(v, length(row));
+        if (!is_new) found->second = std::min(found->second, length(row));
+      }
+    return shortest;
+  }
+
+  struct Near {
+    double distance;
+    int first, second;
+  };
+  // Moves vertices that nearly match; nearest first.
+  std::map<int, int> snap() {
+    const std::map<int, double> first = shortest_edges(0), second = shortest_edges(1);
+    std::vector<Near> near;
+    for (const auto& [v, shortest] : second)
+      if (const std::optional<Hit> hit = on_first(v)) {
+        const int end = ends(hit->row)[hit->s < 0.5 ? 0 : 1];
+        const double distance = std::min(hit->s, 1 - hit->s) * length(hit->row);
+        if (distance <= snapping * std::min(shortest, first.at(end)))
+          near.push_back({distance, end, v});
+      }
+    std::ranges::sort(near, {}, &Near::distance);
+    std::map<int, int> twin;
+    std::set<int> taken;
+    for (const Near& both : near) {
+      if (twin.contains(both.first) || taken.contains(both.second)) continue;
+      if (!is_together(both, first.at(both.first)) && !move(both)) continue;
+      twin[both.first] = both.second;
+      taken.insert(both.second);
+    }
+    return twin;
+  }
+  static bool is_together(const Near& both, double edge_mm) {
+    return both.distance <= 1e-9 * edge_mm;
+  }
+  bool move(const Near& both) {
+    if (!face_[1].fixed.contains(both.second))
+      if (const std::optional<Hit> hit = on_second(both.first))
+        return move_to(both.second, place(hit->row, hit->s));
+    if (!face_[0].fixed.contains(both.first))
+      if (const std::optional<Hit> hit = on_first(both.second))
+        return move_to(both.first, place(hit->row, hit->s));
+    return false;
+  }
+  // Unless a triangle there would lose more than half its area.
+  bool move_to(int v, const Point& to) {
+    const Point before = x(v);
+    std::vector<double> areas;
+    const auto visit = [&](auto what) {
+      for (const std::size_t t : at_faces_)
+        if (const auto& [a, b, c] = mesh_.triangles[t]; a == v || b == v || c == v)
+          what(cross_area(x(a), x(b), x(c)));
+    };
+    visit([&](double area) { areas.push_back(area); });
+    mesh_.vertices[v] = to;
+    bool fits = true;
+    std::size_t k = 0;
+    visit([&](double area) { fits &= area > areas[k++] / 2; });
+    if (!fits) mesh_.vertices[v] = before;
+    changes_.moved += fits;
+    return fits;
+  }
+
+  struct Node {
+    double s;
+    int vertex;  // of the other face, that it faces
+    Point n;     // of the face that it is put into
+  };
+  void insert(std::map<int, int>& twin) {
+    std::map<int, std::vector<Node>> into[2];  // per row
+    std::set<int> matched;
+    for (const auto& [a, b] : twin) matched.insert(b);
+    for (const auto& [v, n] : face_[0].normal)
+      if (!twin.contains(v))
+        if (const std::optional<Hit> hit = on_second(v); hit && is_inside(hit->s))
+          into[1][hit->row].push_back({hit->s, v, normal_at(1, hit->row, hit->s)});
+    for (const auto& [v, n] : face_[1].normal)
+      if (!matched.contains(v))
+        if (const std::optional<Hit> hit = on_first(v); hit && is_inside(hit->s))
+          into[0][hit->row].push_back({hit->s, v, normal_at(0, hit->row, hit->s)});
+    for (const int side : {0, 1})
+      for (auto& [row, nodes] : into[side]) {
+        std::ranges::sort(nodes, {}, &Node::s);
+        for (const auto& [of_this, of_other] : split(row, nodes)) {
+          if (side == 0)
+            twin[of_this] = of_other;
+          else
+            twin[of_other] = of_this;
+        }
+        for (const Node& node : nodes) {
+          const int born = first_born_++;
+          face_[side].normal[born] = node.n;
+        }
+      }
+  }
+  static bool is_inside(double s) { return s > 0 && s < 1; }
+  Point normal_at(int side, int row, double s) const {
+    const auto [from, to] = ends(row);
+    const MatchingFace& face = face_[side];
+    const Point mean = ((1 - s) * face.normal.at(from) + s * face.normal.at(to)).normalized();
+    return normal_of_curve(face.curve.at(row), place(row, s), mean).value_or(mean);
+  }
+  // The triangle on the boundary edge ab, and its third vertex.
+  std::pair<std::size_t, int> triangle_on(int a, int b) const {
+    for (const std::size_t t : at_faces_)
+      for (int k = 0; k < 3; ++k)
+        if (const auto& v = mesh_.triangles[t]; v[k] == a && v[(k + 1) % 3] == b)
+          return {t, v[(k + 2) % 3]};
+    throw std::logic_error("a boundary edge without a triangle");
+  }
+  // A fan from the vertex across; the row keeps its first part. Returns new vertices and what they
+  // face.
+  std::vector<std::pair<int, int>> split(int row, const std::vector<Node>& nodes) {
+    const auto [a, b] = ends(row);
+    const auto [t, across] = triangle_on(a, b);
+    std::vector<std::pair<int, int>> born;
+    first_born_ = static_cast<int>(mesh_.vertices.size());
+    for (const Node& node : nodes) {
+      born.emplace_back(static_cast<int>(mesh_.vertices.size()), node.vertex);
+      mesh_.vertices.push_back((1 - node.s) * x(a) + node.s * x(b));
+    }
+    changes_.inserted += static_cast<int>(born.size());
+    split_rows_.push_back(row);
+    mesh_.triangles[t] = {a, born.front().first, across};
+    mesh_.boundary[row].vertices[1] = born.front().first;
+    for (std::size_t i = 0; i < born.size(); ++i) {
+      const int from = born[i].first, to = i + 1 < born.size() ? born[i + 1].first : b;
+      at_faces_.push_back(mesh_.triangles.size());
+      mesh_.triangles.push_back({from, to, across});
+      mesh_.triangle_body.push_back(mesh_.triangle_body[t]);
+      BoundaryEdge part = mesh_.boundary[row];
+      part.vertices = {from, to};
+      mesh_.boundary.push_back(part);
+    }
+    return born;
+  }
+
+  Mesh& mesh_;
+  std::array<MatchingFace, 2> face_;
+  double reach_mm_;
+  std::vector<std::size_t> at_faces_;  // triangles with a vertex on a face
+  std::vector<int> split_rows_;
+  Problem::Matching changes_;
+  int first_born_ = 0;
+};
+
+}  // namespace
+
+const std::optional<Wall>& curve_of(const Scene& scene, const std::string& label) {
+  static const std::optional<Wall> none;
+  const auto own = scene.boundary.find(label);
+  return own == scene.boundary.end() ? none : own->second.contact.face;
+}
+
+MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, const Scene& scene) {
+  constexpr double least_cosine = 0.94;  // 20°
+  MatchingFace face;
+  std::map<int, std::vector<Point>> at;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const BoundaryEdge& edge = mesh.boundary[row];
+    const std::string label = boundary_label(mesh, edge);
+    if (std::ranges::count(labels, label) == 0) continue;
+    face.rows.push_back(row);
+    face.curve[row] = curve_of(scene, label);
+    const Point &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
+    const Point n = edge_frame(a, b).normal;
+    for (const int v : edge.vertices)
+      at[v].push_back(normal_of_curve(face.curve[row], mesh.vertices[v], n).value_or(n));
+  }
+  for (const auto& [v, normals] : at) {
+    face.normal[v] = (normals.front() + normals.back()).normalized();
+    if (normals.size() < 2 || normals.front().dot(normals.back()) < least_cosine)
+      face.fixed.insert(v);
+  }
+  return face;
+}
+
+FaceMatching match_faces(Mesh& mesh, std::array<MatchingFace, 2> faces, double reach_mm) {
+  return Matcher(mesh, std::move(faces), reach_mm).match();
+}
+
+}  // namespace airybench
