@@ -3,6 +3,7 @@
 Lengths in mm, stresses in MPa, forces in N (per mm of thickness).
 T triangles, B boundary edges, E contact edges with m contact points each: 2, for stresses of degree k k + 1.
 """
+from collections import defaultdict
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -80,20 +81,36 @@ class Fields:
 
 
 def chains(edges: np.ndarray) -> list[np.ndarray]:
-    """Numbers of the edges (n, 2, 2), chained end to start; a ring begins anywhere."""
-    following = {tuple(start): e for e, start in enumerate(edges[:, 0])}
-    ends = {tuple(end) for end in edges[:, 1]}
-    firsts = [e for start, e in following.items() if start not in ends]
+    """Numbers of the edges (n, 2, 2), chained end to start; a ring begins anywhere.
+
+    Where two bodies touch an edge of one starts where an edge of the other ends, and goes straight
+    back: no chain does.
+    """
+    starting = defaultdict(list)
+    for e, start in enumerate(edges[:, 0]):
+        starting[tuple(start)].append(e)
+    following = {}
+    for e, (start, end) in enumerate(edges):
+        on = [f for f in starting[tuple(end)] if (edges[f, 1] != start).any()]
+        if on:
+            following[e] = max(on, key=lambda f: cosine(edges[e], edges[f]))
+    goes_on = set(following.values())
+    left = dict.fromkeys(sorted(range(len(edges)), key=lambda e: e in goes_on))  # ends come first
     found = []
-    while following:
-        e = firsts.pop(0) if firsts else next(iter(following.values()))
+    while left:
+        e = next(iter(left))
         chain = []
-        while e is not None:
+        while e in left:
             chain.append(e)
-            del following[tuple(edges[e, 0])]
-            e = following.get(tuple(edges[e, 1]))
+            del left[e]
+            e = following.get(e)
         found.append(np.array(chain))
     return found
+
+
+def cosine(edge: np.ndarray, other: np.ndarray) -> float:
+    along, on = edge[1] - edge[0], other[1] - other[0]
+    return float(along @ on / np.sqrt((along @ along) * (on @ on)))
 
 
 def largest_shear(stress: np.ndarray) -> np.ndarray:

@@ -281,6 +281,9 @@ class FieldsTest(unittest.TestCase):
         self.assertEqual([c.tolist() for c in fields.chains(edges)], [[1], [2, 0, 3]])
         ring = np.array([edge(0, 1), edge(1, 2), edge(2, 0)])
         self.assertEqual([c.tolist() for c in fields.chains(ring)], [[0, 1, 2]])
+        line = np.array([[0, 0], [1, 0], [2, 0.1], [3, 0]], float)  # of one body, and of another on it
+        both = np.array([line[[0, 1]], line[[1, 2]], line[[2, 3]], line[[3, 2]], line[[2, 1]], line[[1, 0]]])
+        self.assertEqual([c.tolist() for c in fields.chains(both)], [[0, 1, 2], [3, 4, 5]])
 
     def test_a_face_around_a_hole_begins_where_its_y_is_least(self) -> None:
         s = solution()
