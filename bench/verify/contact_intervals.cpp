@@ -208,7 +208,7 @@ class PressureAlongFace {
       const double a = std::max(from, e.start), b = std::min(to, e.start + e.length);
       if (!(a < b)) continue;
       const Eigen::Index n = e.pressure.size();
-      AlongEdge integral = AlongEdge::Zero(n + 1);
+      Eigen::RowVectorXd integral = Eigen::RowVectorXd::Zero(n + 1);
       for (Eigen::Index i = 0; i < n; ++i)
         integral(i + 1) = integral(i) + e.pressure(i) / static_cast<double>(n);
       sum += e.length * (bernstein_value(integral, (b - e.start) / e.length) -
