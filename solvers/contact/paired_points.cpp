@@ -5,14 +5,18 @@
 namespace airybench {
 namespace {
 
+// The second of a pair: its joined point is the first's.
+bool is_second(const ContactPoints& points, int p) {
+  const int q = points.opposite_of(p);
+  return q != ContactPoints::no_point && q < p;
+}
+
 // Per point, which of the joined points it belongs to.
 std::vector<int> joined_number(const ContactPoints& points, int& count) {
   std::vector<int> number(static_cast<std::size_t>(points.count));
   count = 0;
-  for (int p = 0; p < points.count; ++p) {
-    const int q = points.opposite_of(p);
-    number[p] = q == ContactPoints::no_point || q > p ? count++ : number[q];
-  }
+  for (int p = 0; p < points.count; ++p)
+    number[p] = is_second(points, p) ? number[points.opposite_of(p)] : count++;
   return number;
 }
 
@@ -37,7 +41,7 @@ ContactPoints joined(const ContactPoints& points) {
   result.per_edge = points.per_edge;
   result.components = points.components;
   for (int p = 0; p < points.count; ++p) {
-    if (const int q = points.opposite_of(p); q != ContactPoints::no_point && q < p) continue;
+    if (is_second(points, p)) continue;
     if (!points.friction.empty()) result.friction.push_back(points.friction_at(p));
     if (!points.boundary.empty()) result.boundary.push_back(points.boundary[p]);
     ++result.count;
@@ -65,7 +69,7 @@ Eigen::VectorXd of_first(const ContactPoints& points, const Eigen::VectorXd& row
   Eigen::VectorXd first(rows.size());
   int count = 0;
   for (int p = 0; p < points.count; ++p) {
-    if (const int q = points.opposite_of(p); q != ContactPoints::no_point && q < p) continue;
+    if (is_second(points, p)) continue;
     first.segment(m * count++, m) = rows.segment(m * p, m);
   }
   first.conservativeResize(m * count);

@@ -6,59 +6,21 @@
 
 #include "assembly/matched_faces.hpp"
 #include "bench/plan/scene_file.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "bench/verify/verifier.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/contact/paired_points.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/pieces.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/posed.hpp"
-#include "tests/support/solved.hpp"
+#include "tests/support/solved_scene.hpp"
 
 namespace airybench::two_bodies_test {
 namespace {
 
 using Eigen::Vector2d;
-
-// Labels of the sides below, right, above and left.
-using Sides = std::array<std::string, 4>;
-
-// A block of nx × ny cells, its inner vertices moved a little.
-void add_block(Mesh& mesh, const std::string& body, const Vector2d& low, const Vector2d& high,
-               int nx, int ny, const Sides& sides) {
-  const int first = static_cast<int>(mesh.vertices.size());
-  const auto vertex = [&](int i, int j) { return first + i * (ny + 1) + j; };
-  for (int i = 0; i <= nx; ++i)
-    for (int j = 0; j <= ny; ++j) {
-      const bool inside = i > 0 && j > 0 && i < nx && j < ny;
-      const Vector2d cell((high.x() - low.x()) / nx, (high.y() - low.y()) / ny);
-      const Vector2d moved = inside
-                                 ? Vector2d(0.2 * std::sin(3. * i + j), 0.2 * std::cos(i + 2. * j))
-                                 : Vector2d(0, 0);
-      mesh.vertices.push_back(low + cell.cwiseProduct(Vector2d(i, j) + moved));
-    }
-  for (int i = 0; i < nx; ++i)
-    for (int j = 0; j < ny; ++j) {
-      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-    }
-  const auto add = [&](int a, int b, const std::string& label) {
-    const BoundaryLabel parsed = *parse_boundary_label(label);
-    mesh.boundary.push_back({{a, b}, parsed.role, boundary_group(mesh, parsed.name)});
-  };
-  for (int i = 0; i < nx; ++i) {
-    add(vertex(i, 0), vertex(i + 1, 0), sides[0]);
-    add(vertex(i + 1, ny), vertex(i, ny), sides[2]);
-  }
-  for (int j = 0; j < ny; ++j) {
-    add(vertex(nx, j), vertex(nx, j + 1), sides[1]);
-    add(vertex(0, j + 1), vertex(0, j), sides[3]);
-  }
-  mesh.triangle_body.resize(mesh.triangles.size(), static_cast<int>(mesh.body_names.size()));
-  mesh.body_names.push_back(body);
-}
+using testing::add_block;
+using testing::add_quarter_ring;
 
 // One 12 mm wide on another, with so many edges on each face.
 Mesh two_blocks(int lower, int upper, const std::string& left = "force") {
@@ -87,23 +49,7 @@ Scene pressed(double friction, const Vector2d& head_mm = {0.004, -0.01}) {
   return scene;
 }
 
-struct Solved {
-  DualSystem system;
-  Solution solution;
-
-  Solved(const Scene& scene, const Mesh& mesh, const std::string& name) {
-    const Method method = select_methods(name).front();
-    system = assemble(testing::posed(scene, mesh), method.blocks, method.degree);
-    solution = run(method, system, {});
-    EXPECT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
-  }
-  const Problem& problem() const { return *system.problem; }
-  ConstitutiveError error() const {
-    return constitutive_error(
-        system, solution.stress, solution.F_C,
-        recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
-  }
-};
+using Solved = testing::SolvedScene;
 
 // Between rollers, without friction: σ_yy = −δ / Σ h (1 − ν²)/E and nothing else.
 TEST(TwoBodies, AConstantStressPassesBetweenMeshesThatDoNotMatch) {
@@ -182,7 +128,7 @@ TEST(TwoBodies, BoundsHoldAndClose) {
     scene.mesh.refine = refined;
     for (const int degree : {1, 2}) {
       const Solved solved(scene, two_blocks(4, 5), hybrid_of_degree(degree));
-      const ConstitutiveError e = solved.error();
+      const ConstitutiveError e = solved.recovered_error();
       EXPECT_TRUE(e.guaranteed) << e.flaw;
       EXPECT_LE(e.lower_bound_Nmm, e.upper_bound_Nmm);
       EXPECT_LE(e.lower_bound_Nmm, upper);
@@ -257,39 +203,6 @@ TEST(TwoBodies, APathWithSlipDissipatesAsAtAWall) {
       EXPECT_NEAR(both[k] / one[k], 1, 1e-4) << name << " step " << k;
     }
   }
-}
-
-// A quarter of a ring between rollers, as so many cells.
-void add_quarter_ring(Mesh& mesh, const std::string& body, double inner_mm, double outer_mm,
-                      int around, int across, const std::string& inside,
-                      const std::string& outside) {
-  const int first = static_cast<int>(mesh.vertices.size());
-  const auto vertex = [&](int i, int j) { return first + i * (across + 1) + j; };
-  for (int i = 0; i <= around; ++i)
-    for (int j = 0; j <= across; ++j) {
-      const double angle = std::numbers::pi / 2 * i / around,
-                   r = inner_mm + (outer_mm - inner_mm) * j / across;
-      mesh.vertices.emplace_back(i < around ? r * std::cos(angle) : 0,
-                                 i > 0 ? r * std::sin(angle) : 0);
-    }
-  const auto add = [&](int a, int b, const std::string& label) {
-    const BoundaryLabel parsed = *parse_boundary_label(label);
-    mesh.boundary.push_back({{a, b}, parsed.role, boundary_group(mesh, parsed.name)});
-  };
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j < across; ++j) {
-      mesh.triangles.push_back({vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
-      mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i + 1, j)});
-    }
-    add(vertex(i + 1, 0), vertex(i, 0), inside);
-    add(vertex(i, across), vertex(i + 1, across), outside);
-  }
-  for (int j = 0; j < across; ++j) {
-    add(vertex(0, j), vertex(0, j + 1), "displacement:x");
-    add(vertex(around, j + 1), vertex(around, j), "displacement:y");
-  }
-  mesh.triangle_body.resize(mesh.triangles.size(), static_cast<int>(mesh.body_names.size()));
-  mesh.body_names.push_back(body);
 }
 
 // Two rings, the inner one too large by δ: Lamé's pressure.

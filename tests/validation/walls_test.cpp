@@ -6,36 +6,16 @@
 #include <numbers>
 
 #include "bench/plan/scene_file.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/posed.hpp"
-#include "tests/support/solved.hpp"
+#include "tests/support/solved_scene.hpp"
 
 namespace airybench::walls_test {
 namespace {
 
 using Eigen::Vector2d;
 
-struct Solved {
-  DualSystem system;
-  Solution solution;
-
-  Solved(const Scene& scene, const Mesh& mesh, const std::string& name) {
-    const Method method = select_methods(name).front();
-    system = assemble(testing::posed(scene, mesh), method.blocks, method.degree);
-    solution = run(method, system, {});
-    EXPECT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
-  }
-  const Problem& problem() const { return *system.problem; }
-  double energy() const { return stress_norm_squared(problem(), solution.stress) / 2; }
-  ConstitutiveError recovered_error() const {
-    return constitutive_error(
-        system, solution.stress, solution.F_C,
-        recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
-  }
-};
+using Solved = testing::SolvedScene;
 
 // The largest difference from Hertz' pressure under the same load, of an edge's mean where that is
 // not near its end, relative to its peak; and the half width.

@@ -1,0 +1,34 @@
+// A scene solved on a mesh by a method, and its total error.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/solved.hpp"
+
+namespace airybench::testing {
+
+struct SolvedScene {
+  DualSystem system;
+  Solution solution;
+
+  SolvedScene(const Scene& scene, const Mesh& mesh, const std::string& name) {
+    const Method method = select_methods(name).front();
+    system = assemble(posed(scene, mesh), method.blocks, method.degree);
+    solution = run(method, system, {});
+    EXPECT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
+  }
+  const Problem& problem() const { return *system.problem; }
+  double energy() const { return stress_norm_squared(problem(), solution.stress) / 2; }
+  ConstitutiveError recovered_error() const {
+    return constitutive_error(
+        system, solution.stress, solution.F_C,
+        recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
+  }
+};
+
+}  // namespace airybench::testing
