@@ -9,6 +9,7 @@
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/contact/linear_tractions.hpp"
 #include "solvers/contact/paired_points.hpp"
 #include "solvers/contact/proximal_points.hpp"
 #include "solvers/contact/sparse_freedoms.hpp"
@@ -142,6 +143,12 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
   ContactOptions part = options;
   int sweeps = 0, steps = 0;
   std::vector<double> history;
+  if (part.start.size() == 0 && has_linear_tractions(problem)) {
+    const ContactResult linear =
+        solve_contact_by_newton(in_linear_tractions(problem), options, deadline);
+    if (linear.converged) part.start = of_linear_tractions(problem.points, linear.F_C);
+    steps = linear.active_set_steps;
+  }
   for (int next = first_sweeps;; next *= 10) {
     part.most_iterations = std::min(next, options.most_iterations - sweeps);
     const ContactResult swept = problem.bodies

@@ -8,6 +8,8 @@
 #include "solvers/condensation/degree_element.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybridized.hpp"
+#include "solvers/contact/condensed.hpp"
+#include "solvers/contact/linear_tractions.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
@@ -53,6 +55,42 @@ Scene loaded_scene() {
   LinearValue<double> pressure{{20, 40}, {Eigen::Vector2d(0, 0), Eigen::Vector2d(10, 0)}};
   scene.boundary["force"].pressure_MPa = pressure;
   return scene;
+}
+
+// Newton's method starts from the answer in linear tractions: the same answer in fewer steps of
+// full size than from zero.
+TEST(Degrees, ContactStartsFromLinearTractions) {
+  Mesh mesh = small_tooth(8, 6);
+  mesh = bisected(mesh, std::vector<int>(mesh.triangles.size(), 2)).mesh;
+  Scene scene;
+  scene.friction = 0.3;
+  for (const int degree : {2, 3, 4}) {
+    const Method method = select_methods(hybrid_of_degree(degree)).front();
+    contact::Problem problem;
+    RunControl control;
+    control.contact.by = [&](const contact::Problem& condensed) {
+      problem = condensed;
+      return solve_contact(condensed);
+    };
+    run(method, assemble(testing::posed(scene, mesh), method.blocks, degree), control);
+    ASSERT_TRUE(has_linear_tractions(problem));
+    const contact::Problem linear = in_linear_tractions(problem);
+    EXPECT_EQ(linear.points.count * (degree + 1), problem.points.count * 2);
+    EXPECT_FALSE(has_linear_tractions(linear));
+    ContactOptions from_linear, from_zero;
+    const Eigen::VectorXd F1 = solve_contact(linear).F_C;
+    from_linear.start = of_linear_tractions(problem.points, F1);
+    from_zero.start = Eigen::VectorXd::Zero(problem.points.size());
+    const auto sums = [](const Eigen::VectorXd& F) {
+      return Eigen::Vector2d(F.reshaped(2, F.size() / 2).rowwise().sum());
+    };
+    EXPECT_LT((sums(from_linear.start) - sums(F1)).norm(), 1e-12 * F1.norm());
+    const ContactResult near = solve_contact(problem, from_linear),
+                        far = solve_contact(problem, from_zero);
+    ASSERT_TRUE(near.converged && far.converged) << degree;
+    EXPECT_LT((near.F_C - far.F_C).norm(), 1e-9 * far.F_C.norm()) << degree;
+    EXPECT_LT(near.active_set_steps, far.active_set_steps) << degree;
+  }
 }
 
 // K_e and f_e of the general element are those of HYBRID's vectorised one.
