@@ -184,7 +184,7 @@ def walls_of(s: Fields, times: float) -> list[np.ndarray]:
     normal, gap = s.normal, s.gap[..., None]
     offset = (u * normal).sum(-1, keepdims=True) + gap  # from p to the wall
     found = []
-    for face in s.faces():
+    for face in filter(s.at_wall, s.faces()):
         nearest = gap[face] <= max(gap[face].min(), 0)
         touching = (s.state[face] != "open")[..., None] if (s.state[face] != "open").any() else nearest
         shift = (times - 1) * offset[face][touching].mean()

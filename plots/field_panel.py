@@ -19,6 +19,7 @@ from words import columns_of, csv_of, plain
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
 SCALE = 0.3  # of a body, below it
 NARROWEST = 1.5  # a face
+ROOM_FOR_WORDS = 2.7  # of its whole axis label
 MARKERS = 0.2  # below a face, for its contact points
 MARKER_PT = 4.5  # at most
 MARGIN = 0.04  # around a body, of its extent in y
@@ -177,7 +178,8 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
                         xlim=limits, ylim=(scales.pressure_MPa, 0))
     traction.tick_params(labelleft=place.named, length=2)
     traction.spines[["right", "bottom"]].set_visible(False)
-    traction.set_xlabel(line.axis, labelpad=1)
+    traction.set_xlabel(line.axis if place.width > ROOM_FOR_WORDS else
+                        line.axis.replace("distance along the face ", ""), labelpad=1)
     traction.set_ylabel("MPa" if place.named else "", labelpad=2)
     drawing.draw_traction(traction, local)
 
@@ -199,13 +201,14 @@ def draw_legend(figure: Figure, scales: drawing.Scales, solutions: list[Fields])
     roles = {role for s in solutions for role in s.role}
     states = {state for s in solutions for state in s.state.ravel()}
     displaced = scales.times is not None
+    has_walls = displaced and any(s.at_wall(face) for s in solutions for face in s.faces())
     ticked, edge = {"path_effects": [drawing.TICKED]}, drawing.ROLE["force"]
     lines = (("held", "displacement" in roles, drawing.ROLE["displacement"] | ticked),
              ("on rollers", "rollers" in roles, edge | drawing.ROLLER | {"linestyle": "-"}),
              ("free or loaded", "force" in roles, edge),
              ("contact", "contact" in roles, drawing.ROLE["contact"]),
              ("outline, displaced", displaced, drawing.OUTLINE),
-             ("wall", displaced and "contact" in roles, drawing.WALL | ticked),
+             ("wall", has_walls, drawing.WALL | ticked),
              ("pressure", "contact" in roles, drawing.PRESSURE),
              ("|friction|", "contact" in roles, drawing.FRICTION))
     handles = [Line2D([], [], **style, label=label) for label, drawn, style in lines if drawn]

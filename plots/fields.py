@@ -14,9 +14,9 @@ from case_names import case_name, file_of
 from records import RecordsError, cells_of, lines_file, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
-CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,state"
-MAY_BE_EMPTY = ("gap_mm", "slip_mm", "normal_resultant_N", "tangential_resultant_N", "n_open",
-                "n_stick", "n_slip", "held_x_mm", "held_y_mm", "loaded_x_mm", "loaded_y_mm")
+CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,opposite,state"
+MAY_BE_EMPTY = ("gap_mm", "slip_mm", "opposite", "normal_resultant_N", "tangential_resultant_N",
+                "n_open", "n_stick", "n_slip", "held_x_mm", "held_y_mm", "loaded_x_mm", "loaded_y_mm")
 DISPLACEMENT = "triangle,node,x_mm,y_mm,ux_mm,uy_mm"
 BOUNDARY = "x0_mm,y0_mm,x1_mm,y1_mm,rolls,t0_x_MPa,t0_y_MPa,t1_x_MPa,t1_y_MPa,role"
 WITHOUT_LOADS = "x0_mm,y0_mm,x1_mm,y1_mm,role"  # of an earlier bench
@@ -48,6 +48,7 @@ class Fields:
     moved: np.ndarray | None = None  # (B, 2, 2) mm: displacement of start, end
     normal: np.ndarray | None = None  # (E, m, 2): of the contact points, to the wall
     gap: np.ndarray | None = None    # (E, m) mm: along it, a mean around the point; NaN: unknown
+    paired: np.ndarray | None = None  # (E,) it presses on another body, not on a wall
     touched: np.ndarray | None = None  # (E, m) the point touches in some load step; None: see state
 
     @property
@@ -68,6 +69,9 @@ class Fields:
     def shown_of(self, face: np.ndarray, line: "Unrolled") -> tuple[float, float]:
         touched = self.state[face] != "open" if self.touched is None else self.touched[face]
         return part_shown(parts(line.along, self.per_edge), touched.ravel())
+
+    def at_wall(self, face: np.ndarray) -> bool:
+        return self.paired is None or not self.paired[face].any()
 
     def faces(self) -> list[np.ndarray]:
         """Numbers of the contact edges, a chain for each face; one around a hole begins where its y is
@@ -176,7 +180,7 @@ class Unrolled:
         lines = np.ptp(boundary[..., 1], axis=1) < widest
         return replace(s, corners=corners[kept], stress=stress[kept], boundary=boundary[lines],
                        role=role[lines], traction=s.traction[face], state=s.state[face], of_face=True,
-                       load=None, moved=None, normal=None, gap=None,
+                       load=None, moved=None, normal=None, gap=None, paired=None,
                        edges=np.stack([np.zeros_like(self.along), self.along], -1))
 
 
@@ -312,7 +316,8 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
                   traction=of_edges[..., 5:7] / (lengths / m),  # F = (L/m) t
                   state=state.reshape(-1, m), mesh=record["mesh"], n_phi=record["n_phi"], load=load,
                   moved=moved_boundary(results / "fields" / f"{name}.displacement.csv", boundary),
-                  normal=of_edges[..., 2:4], gap=of_edges[..., 7])
+                  normal=of_edges[..., 2:4], gap=of_edges[..., 7],
+                  paired=np.isfinite(of_edges[..., 9]).any(1))
 
 
 def moved_boundary(path: Path, boundary: np.ndarray) -> np.ndarray | None:

@@ -52,8 +52,10 @@ FACES = ("{}: contact faces, enlarged and straightened, with elements, states of
          "edge), pressure, friction.")
 POINTS = {2: "two", 3: "three", 4: "four", 5: "five"}
 CUT = "Of a face that is open for the most part: where it touches, and a little more."
-WALLS = ("Dashed: the outline with enlarged displacements. A wall keeps its shape: it meets the outline "
-         "where the body\ntouches it, on average; elsewhere the enlarged outline may cross it.")
+OUTLINE = "Dashed: the outline with enlarged displacements"
+WALLS = (". A wall keeps its shape: it meets the outline where the body\ntouches it, on average; elsewhere "
+         "the enlarged outline may cross it.")
+BODIES = ", in which bodies that touch may cross each other."
 # Pictures of the error: inches, of a map and of levels of a loop.
 MAP_DPI, LEVELS_DPI = 120, 110
 SHADES = 24  # few, for a small file
@@ -101,7 +103,8 @@ def heading(solutions: list[Fields], scales: Scales) -> list[str]:
         if any(map(is_cut, touching)):
             lines.append(CUT)
     if touching and scales.times is not None:
-        lines.append(WALLS)
+        has_walls = any(s.at_wall(face) for s in touching for face in s.faces())
+        lines.append(OUTLINE + (WALLS if has_walls else BODIES))
     return [*lines, plain(f"Scene and method: {words_of_file(solutions[0].name).partition(', ')[2]}")]
 
 

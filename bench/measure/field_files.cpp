@@ -68,14 +68,18 @@ std::string contact_csv(const ContactPicture& picture) {
   const auto value = [](const std::vector<double>& values, std::size_t p) {
     return values.empty() ? std::string() : fmt::format("{}", values[p]);
   };
+  const auto row_of_opposite = [&](std::size_t p) {
+    const bool is_paired = !picture.opposite.empty() && picture.opposite[p] >= 0;
+    return is_paired ? fmt::format("{}", picture.opposite[p] + 1) : std::string();
+  };
   std::string text =
-      "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,state\n";
+      "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,opposite,state\n";
   for (std::size_t p = 0; p < picture.force.size(); ++p) {
     const EdgeFrame& frame = picture.frame[p];
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", picture.at_mm[p].x(),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", picture.at_mm[p].x(),
                         picture.at_mm[p].y(), frame.normal.x(), frame.normal.y(), frame.length_mm,
                         picture.force[p](0), picture.force[p](1), value(picture.gap_mm, p),
-                        value(picture.slip_mm, p), name_of(picture.state[p]));
+                        value(picture.slip_mm, p), row_of_opposite(p), name_of(picture.state[p]));
   }
   return text;
 }
@@ -241,6 +245,7 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
   const bool has_own_points = solution.displacement.cols() == 0;
   ContactPicture picture;
   picture.per_edge = static_cast<std::size_t>(contact.per_edge);
+  picture.opposite = contact.opposite;
   for (int p = 0; p < contact.count; ++p) {
     const int row = contact.boundary[p];
     const auto [start, end] = system.problem->mesh.boundary[row].vertices;

@@ -41,6 +41,7 @@ struct ContactPicture {
   std::vector<double> gap_mm;   // g0 − u_n
   std::vector<double> slip_mm;  // u_t against the wall; empty if unknown
   std::size_t per_edge = 2;
+  std::vector<int> opposite;  // ContactPoints::opposite
 };
 
 // For a displacement method: the tractions of its stresses, the states of its control points. w:

@@ -329,6 +329,15 @@ class DisplacedTest(unittest.TestCase):
         wall, = field_drawing.walls_of(touching, 50)
         np.testing.assert_allclose(wall[:, 0], 11 + 50 * 0.004)
 
+    def test_a_face_that_presses_on_a_body_has_no_wall(self) -> None:
+        paired = replace(self.s, paired=np.ones(len(self.s.edges), bool))
+        self.assertEqual(field_drawing.walls_of(paired, 50), [])
+        for s, words in ((self.s, "A wall keeps its shape"), (paired, "may cross each other")):
+            scales = field_drawing.scales_of([s])
+            self.assertIn(words, " ".join(gallery.heading([s], scales)))
+        labels = [text.get_text() for text in gallery.compose([[paired]]).legends[0].get_texts()]
+        self.assertNotIn("wall", labels)
+
     def test_outline_wall_and_loads_are_drawn_and_named(self) -> None:
         figure = gallery.compose([[self.s]])
         body = figure.axes[0]

@@ -37,7 +37,7 @@ def write_path(results: Path, bodies: tuple[bool, ...] = (True,) * 6) -> None:
         body = bodies[k - 1]
         write_solution(steps, f"{k:04}", corners=LOW)
         state = "stick" if k % 2 else "slip"
-        points = [f"0.125,{y},1,0,2,-30,{force / 2},0,0,{state}" for y in (0, 2)]
+        points = [f"0.125,{y},1,0,2,-30,{force / 2},0,0,,{state}" for y in (0, 2)]
         (steps / f"{k:04}.contact.csv").write_text("\n".join([fields.CONTACT, *points]) + "\n")
         rows.append(f"{k},-60,{force},{lost},0,2,0,0,{moved / 1000},,,{LOADS[k - 1]},"
                     f"{'body' if body else 'contact'}")
