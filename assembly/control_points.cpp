@@ -12,38 +12,41 @@ namespace {
 
 // Where one node of a pair is prescribed, the other presses on it as on a wall that moves. Where a
 // roller holds one along the face, there is no friction.
+template <int p>
 void pair_points(const Problem& problem, const PrescribedDisplacement& prescribed,
                  ControlPoints& points, std::vector<double>& friction,
                  std::vector<ContactOffset>& offset) {
   std::map<int, int> point_of_node;
-  for (int p = 0; p < points.law.count; ++p) point_of_node[points.node[p]] = p;
+  for (int i = 0; i < points.law.count; ++i) point_of_node[points.node[i]] = i;
   points.law.opposite.assign(static_cast<std::size_t>(points.law.count), ContactPoints::no_point);
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     const int other = problem.opposite_of(row);
     if (other == Problem::no_row) continue;
-    const std::array<int, 3> nodes = boundary_nodes(problem, row),
-                             others = boundary_nodes(problem, other);
-    const std::array<ContactOffset, 3> of_others = offset_coefficients<2>(problem, other);
-    for (int k = 0; k < 3; ++k) {
-      const auto p = point_of_node.find(nodes[k]), q = point_of_node.find(others[2 - k]);
-      if (p == point_of_node.end()) continue;
-      if (q != point_of_node.end()) {
-        points.law.opposite[p->second] = q->second;
-        if (points.on_roller[p->second] || points.on_roller[q->second])
-          friction[p->second] = friction[q->second] = 0;
-      } else if (prescribed.at[others[2 - k]]) {
-        const Eigen::Vector2d moved = prescribed.u.col(others[2 - k]) + of_others[2 - k].motion_mm;
-        ContactOffset& own = offset[p->second];
-        own.gap_mm = offset_coefficients<2>(problem, row)[k].gap_mm + of_others[2 - k].gap_mm +
-                     points.normal[p->second].dot(moved);
-        own.slid_mm += points.frame(p->second).col(1).dot(moved) + of_others[2 - k].slid_mm;
+    const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row),
+                                 others = boundary_nodes<p>(problem, other);
+    const std::array<ContactOffset, p + 1> of_others = offset_coefficients<p>(problem, other);
+    for (int k = 0; k <= p; ++k) {
+      const int across = others[p - k];
+      const ContactOffset& beyond = of_others[p - k];
+      const auto one = point_of_node.find(nodes[k]), two = point_of_node.find(across);
+      if (one == point_of_node.end()) continue;
+      const int point = one->second;
+      if (two != point_of_node.end()) {
+        points.law.opposite[point] = two->second;
+        if (points.on_roller[point] || points.on_roller[two->second])
+          friction[point] = friction[two->second] = 0;
+      } else if (prescribed.at[across]) {
+        const Eigen::Vector2d moved = prescribed.u.col(across) + beyond.motion_mm;
+        ContactOffset& own = offset[point];
+        own.gap_mm = offset_coefficients<p>(problem, row)[k].gap_mm + beyond.gap_mm +
+                     points.normal[point].dot(moved);
+        own.slid_mm += points.frame(point).col(1).dot(moved) + beyond.slid_mm;
       }
     }
   }
 }
 
-}  // namespace
-
+template <int p>
 ControlPoints control_points(const Problem& problem) {
   ControlPoints points;
   points.law.components = problem.has_friction() ? 2 : 1;
@@ -63,12 +66,12 @@ ControlPoints control_points(const Problem& problem) {
   };
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
-    if (!prescribed) prescribed = prescribed_displacement(problem);
-    const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    const std::array<ContactOffset, 3> offsets = offset_coefficients<2>(problem, row);
-    for (int k = 0; k < 3; ++k) {
+    if (!prescribed) prescribed = prescribed_displacement(problem, p);
+    const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+    const std::array<ContactOffset, p + 1> offsets = offset_coefficients<p>(problem, row);
+    for (int k = 0; k <= p; ++k) {
       if (prescribed->at[nodes[k]]) continue;
-      const Eigen::Vector2d normal = problem.frame_at(row, k, 2).normal;
+      const Eigen::Vector2d normal = frame_of_coefficient<p>(problem, row, k).normal;
       if (const auto roller = prescribed->normal.find(nodes[k]);
           roller != prescribed->normal.end()) {
         const Eigen::Vector2d& m = roller->second;
@@ -85,29 +88,36 @@ ControlPoints control_points(const Problem& problem) {
       if (is_new) {
         add(nodes[k], normal, false, row, offsets[k]);
       } else {
-        const int p = found->second;
-        points.normal[p] = (points.normal[p] + normal).normalized();
-        offset[p].gap_mm = std::min(offset[p].gap_mm, offsets[k].gap_mm);
-        friction[p] = std::min(friction[p], problem.friction_at(row));
+        const int point = found->second;
+        points.normal[point] = (points.normal[point] + normal).normalized();
+        offset[point].gap_mm = std::min(offset[point].gap_mm, offsets[k].gap_mm);
+        friction[point] = std::min(friction[point], problem.friction_at(row));
       }
     }
   }
   points.law.count = static_cast<int>(points.node.size());
-  if (!problem.opposite.empty()) pair_points(problem, *prescribed, points, friction, offset);
+  if (!problem.opposite.empty()) pair_points<p>(problem, *prescribed, points, friction, offset);
   if (points.law.components == 2) points.law.friction = std::move(friction);
   if (problem.has_gap() ||
       std::ranges::any_of(offset, [](const ContactOffset& own) { return own.gap_mm != 0; })) {
     const int m = points.law.components;
     points.law.gap.resize(points.law.size());
-    for (int p = 0; p < points.law.count; ++p)
-      points.law.gap.segment(m * p, m) = offset[p].along(points.normal[p]).head(m);
+    for (int i = 0; i < points.law.count; ++i)
+      points.law.gap.segment(m * i, m) = offset[i].along(points.normal[i]).head(m);
   }
   return points;
 }
 
+}  // namespace
+
+ControlPoints control_points(const Problem& problem, int degree) {
+  return with_degree(degree - 1, [&](auto k) { return control_points<k + 1>(problem); });
+}
+
 Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress) {
-  const ControlPoints points = control_points(problem);
-  const Eigen::Matrix2Xd force = nodal_forces(problem, stress).sum - nodal_loads(problem);
+  const int degree = stress.degree() + 1;
+  const ControlPoints points = control_points(problem, degree);
+  const Eigen::Matrix2Xd force = nodal_forces(problem, stress).sum - nodal_loads(problem, degree);
   const int m = points.law.components;
   Eigen::VectorXd F(points.law.size());
   for (int p = 0; p < points.law.count; ++p) {

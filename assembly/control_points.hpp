@@ -1,9 +1,9 @@
-// The contact law at the control points of quadratic displacements: the nodes of
-// displacement_field.hpp on Γ_C, vertices and edges.
+// The contact law at the control points of displacements of degree p: the nodes of
+// displacement_field.hpp on Γ_C, vertices and p − 1 on each edge.
 //
 // At each, r = u − g0 n in Bernstein coefficients and its work partner F = ∫ t B ds follow the
-// contact law (contact_problem.hpp). If the coefficients satisfy r_n ≤ 0, so does the quadratic on
-// its edge, and B ≥ 0: u_n ≤ g0 holds at every point of Γ_C.
+// contact law (contact_problem.hpp). If the coefficients satisfy r_n ≤ 0, so does the polynomial
+// on its edge, and B ≥ 0: u_n ≤ g0 holds at every point of Γ_C.
 //
 // A vertex between two contact edges has one normal, their mean. Then u_n ≤ g0 is no longer strict
 // on a face that is not straight. A vertex on Γ_D is prescribed and has no law. Where a roller of
@@ -32,10 +32,10 @@ struct ControlPoints {
 
   Eigen::Matrix2d frame(int point) const { return normal_frame(normal[point]); }
 };
-ControlPoints control_points(const Problem& problem);
+ControlPoints control_points(const Problem& problem, int degree = 2);
 
-// Contact forces of quadratic displacements at the control points: nodal forces of their stresses
-// less the loads, N. Per point normal, tangential (μ = 0: normal).
+// Contact forces of displacements at their control points: nodal forces of their stresses, of one
+// degree less, without the loads, N. Per point normal, tangential (μ = 0: normal).
 Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress);
 
 }  // namespace airybench

@@ -92,33 +92,6 @@ typename DisplacementTriangle<p>::Displacement of_triangle(const Problem& proble
   return local;
 }
 
-QuadraticStrain quadratic_strain(const TriangleVertices& v) {
-  const double twice_area = cross_area(v.col(0), v.col(1), v.col(2));
-  QuadraticStrain strain = QuadraticStrain::Zero();
-  for (int j = 0; j < 3; ++j) {
-    const Eigen::Vector2d opposite = v.col((j + 2) % 3) - v.col((j + 1) % 3);
-    const Eigen::Vector2d gradient = Eigen::Vector2d(-opposite.y(), opposite.x()) / twice_area;
-    for (int k = 0; k < 3; ++k) {  // corner k has the coefficient U_kj
-      const int node = k == j ? k : (k + 1) % 3 == j ? 3 + k : 3 + j;
-      auto block = strain.block<3, 2>(3 * k, 2 * node);
-      block(0, 0) = block(2, 1) = 2 * gradient.x();
-      block(1, 1) = block(2, 0) = 2 * gradient.y();
-    }
-  }
-  return strain;
-}
-
-QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double area_mm2,
-                                       const Eigen::Matrix3d& elasticity) {
-  // ∫ λ_m λ_n = area (1 + δ_mn) / 12.
-  const Eigen::Matrix<double, 3, 12> sum =
-      strain.topRows<3>() + strain.middleRows<3>(3) + strain.bottomRows<3>();
-  QuadraticStrain dual;
-  for (int k = 0; k < 3; ++k)
-    dual.middleRows<3>(3 * k) = area_mm2 / 12 * elasticity * (strain.middleRows<3>(3 * k) + sum);
-  return strain.transpose().lazyProduct(dual);
-}
-
 Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance) {
   Eigen::Matrix3d elasticity = Eigen::Matrix3d::Identity();
   SmallCholesky<double, 3>(compliance).solve(elasticity);
@@ -196,21 +169,27 @@ StressField stress_of_displacement(const Problem& problem, const DisplacementFie
 }
 
 NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
-  NodalForces forces{Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem))};
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    Eigen::Matrix3d corners;  // values at the vertices; the stress is linear
-    corners << stress[t].col(0), stress[t].col(3), stress[t].col(6);
-    const Eigen::Matrix3d dual =
-        problem.area_mm2(t) / 12 * (corners.colwise() + corners.rowwise().sum());
-    const Eigen::Matrix<double, 2, 6> force = quadratic_strain(problem.vertices_of(t))
-                                                  .transpose()
-                                                  .lazyProduct(dual.reshaped())
-                                                  .reshaped(2, 6);
-    forces.largest = std::max(forces.largest, force.cwiseAbs().maxCoeff());
-    const std::array<int, 6> nodes = triangle_nodes(problem, t);
-    for (int m = 0; m < 6; ++m) forces.sum.col(nodes[m]) += force.col(m);
-  }
-  return forces;
+  return with_degree(stress.degree(), [&](auto k) {
+    using Triangle = DisplacementTriangle<k + 1>;
+    constexpr int n = Triangle::strains;
+    const auto& constants = Triangle::constants();
+    Eigen::Matrix<double, 3 * n, n> integral;  // ∫ σ B per area, from coefficients by thirds
+    for (int t = 0; t < 3; ++t)
+      integral.template middleRows<n>(n * t) =
+          (constants.mass / 3)
+              .lazyProduct(constants.on_thirds.template middleCols<n>(n * t).transpose());
+    NodalForces forces{Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem, k + 1))};
+    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+      const TriangleShape shape(problem.vertices_of(t));
+      const Eigen::Matrix<double, 3, 3 * n> own = shape.area_mm2 * stress[t];
+      const typename Triangle::Displacement force =
+          Triangle::forces(shape.gradients, own.lazyProduct(integral));
+      forces.largest = std::max(forces.largest, force.cwiseAbs().maxCoeff());
+      const auto nodes = triangle_nodes<k + 1>(problem, t);
+      for (int m = 0; m < Triangle::nodes; ++m) forces.sum.col(nodes[m]) += force.col(m);
+    }
+    return forces;
+  });
 }
 
 Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {

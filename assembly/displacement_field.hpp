@@ -54,15 +54,6 @@ std::array<Value, 3> edge_coefficients(const Value& start, const Value& middle, 
   return {start, Value(2 * middle - (start + end) / 2), end};
 }
 
-// Rows: xx, yy, 2xy at V1, V2, V3. Columns: x, y of the six nodes.
-using QuadraticStrain = Eigen::Matrix<double, 9, 12>;
-QuadraticStrain quadratic_strain(const TriangleVertices& v);
-
-// ∫ ε(u_i):A:ε(u_j) over the triangle, 1 mm thick, N/mm; elasticity A = C⁻¹ in MPa. Symmetric,
-// positive semidefinite; kernel: rigid motions.
-using QuadraticStiffness = Eigen::Matrix<double, 12, 12>;
-QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double area_mm2,
-                                       const Eigen::Matrix3d& elasticity);
 Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);   // its inverse
 std::vector<Eigen::Matrix3d> elasticities(const Problem& problem);  // per row of mesh.body_names
 
@@ -77,8 +68,8 @@ DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w)
 // A ε(u), MPa, of degree p − 1.
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u);
 
-// Per node of quadratic displacements ∫ σ:ε(u_i), N, of stresses linear on each triangle; a
-// triangle's largest contribution.
+// Per node of displacements of one degree more than the stresses' ∫ σ:ε(u_i), N; a triangle's
+// largest contribution.
 struct NodalForces {
   Eigen::Matrix2Xd sum;
   double largest = 0;

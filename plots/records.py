@@ -125,7 +125,7 @@ KINDS = (
     (FLAG, "iterative in_paper in_displacements precision_reached noisy tuning_cut "
            "memory_counts_differ"),
     (COUNT, "n_phi n_f n_c threads repetitions load_steps noise_attempts adapt_level"),
-    (DEGREE, "degree"),  # of the stresses; those of P2 have degree 1
+    (DEGREE, "degree"),  # of the stresses; those of P2 have degree 1, of P3 degree 2
     (POSITIVE, "area_mm2 width_mm height_mm time_s noise_kernel_s busy_kernel_s peak_heap_bytes "
                "peak_rss_bytes extrapolated_time_s target_error adapt_time_s"),
     (NOT_NEGATIVE, "contact_length_mm time_mad_s time_once_s time_per_load_s assembly_s "

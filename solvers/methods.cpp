@@ -54,6 +54,7 @@ const int highest_degree = highest_stress_degree;
 std::string hybrid_of_degree(int degree) {
   return degree == 1 ? "HYBRID" : "HYBRID:k=" + std::to_string(degree);
 }
+std::string displacements_of_degree(int degree) { return "P" + std::to_string(degree); }
 
 // One of the paper's names for a method that has a general one.
 static Method alias(const char* name, const char* general_name) {
@@ -88,6 +89,8 @@ const std::vector<Method>& methods() {
         METHOD(hybrid_mumps),
         METHOD(hybrid_cg),
         METHOD(p2),
+        METHOD(p3),
+        METHOD(p4),
     };
     for (const char* family : {"SYMMLQ:", "3STEPCG:"})
       for (const std::string& preconditioner : preconditioner_names())

@@ -33,6 +33,8 @@ std::vector<Method> select_methods(std::string_view selection,
 // "HYBRID", "HYBRID:k=2", …, up to the highest degree of stresses.
 std::string hybrid_of_degree(int degree);
 extern const int highest_degree;
+// "P2", "P3", "P4": of the displacements, whose stresses have one degree less.
+std::string displacements_of_degree(int degree);
 
 // Whether a name is of a family: "SYMMLQ:…", not "3STEPD:FILE".
 bool is_general_name(const std::string& name);

@@ -45,8 +45,8 @@ Examples
 )";
 
 constexpr const char* candidates = "HYBRID,P2,BLIND:SCHUR,BLIND:SCHUR:REFINED,3STEPD";
-constexpr const char* what_p2_lacks =
-    "P2 gives displacements. Its stresses are not in equilibrium, within triangles and across "
+constexpr const char* what_displacements_lack =
+    "{} gives displacements. Its stresses are not in equilibrium, within triangles and across "
     "their\n"
     "edges; those of the other methods are.\n\n";
 constexpr const char* uniform_candidate = "HYBRID";
@@ -295,8 +295,11 @@ int advise_command(int argc, const char* const* argv) {
       rows.push_back(*forecast);
   rows.insert(rows.end(), left_out.begin(), left_out.end());
   fmt::print("\n{}\n", table_of(rows));
-  if (std::ranges::any_of(rows, [](const Advice& row) { return row.record.method == "P2"; }))
-    fmt::print("{}", what_p2_lacks);
+  const auto in_displacements = std::ranges::find_if(rows, [](const Advice& row) {
+    return row.record.in_displacements && row.record.program.empty();
+  });
+  if (in_displacements != rows.end())
+    fmt::print(what_displacements_lack, in_displacements->record.method);
   write_file_atomically(options.out / "advice.csv", csv_of(rows));
   if (!met) {
     fmt::print("no measured method meets {}\n", text_of(options.adapt));

@@ -180,29 +180,31 @@ void take_forces(const ContactPoints& contact, const Solution& solution, Contact
     picture.force.emplace_back(solution.F_C(m * p), m == 2 ? solution.F_C(m * p + 1) : 0.0);
 }
 
-// The state is that of the control point at the edge's end; if that is prescribed, of the edge.
+// The state is that of the nearest control point of the edge; if that is prescribed, of an inner
+// one.
+template <int p>
 void take_forces_of_displacements(const DualSystem& system, const Solution& solution,
                                   ContactPicture& picture) {
   const Problem& problem = *system.problem;
-  const ControlPoints control = control_points(problem);
+  const ControlPoints control = control_points(problem, p);
   const std::vector<ContactState> states = contact_states(control.law, solution.F_C);
   std::map<int, ContactState> state_of_node;
-  for (int p = 0; p < control.law.count; ++p) state_of_node[control.node[p]] = states[p];
+  for (int i = 0; i < control.law.count; ++i) state_of_node[control.node[i]] = states[i];
   std::map<int, std::pair<int, int>> side_of_edge;  // triangle, which of its sides
   for (int t = 0; t < static_cast<int>(solution.stress.size()); ++t)
     for (int k = 0; k < 3; ++k) side_of_edge[problem.edges.of_triangle[t][k]] = {t, k};
 
-  for (int p = 0; p < system.contact.count; ++p) {
-    const int row = system.contact.boundary[p], end = p % 2;
-    const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    const auto found = state_of_node.find(nodes[2 * end]);
+  for (int point = 0; point < system.contact.count; ++point) {
+    const int row = system.contact.boundary[point], j = point % p;
+    const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+    const auto found = state_of_node.find(nodes[2 * j < p ? j : j + 1]);
     picture.state.push_back(found != state_of_node.end() ? found->second
                                                          : state_of_node.at(nodes[1]));
     const auto [t, k] = side_of_edge.at(problem.edges.of_boundary[row]);
     const Eigen::Vector2d force =
-        element_edge_forces(problem.vertices_of(t), solution.stress[t], k).col(end);
-    picture.force.emplace_back(picture.frame[p].normal.dot(force),
-                               picture.frame[p].tangent.dot(force));
+        element_edge_forces(problem.vertices_of(t), solution.stress[t], k).col(j);
+    picture.force.emplace_back(picture.frame[point].normal.dot(force),
+                               picture.frame[point].tangent.dot(force));
   }
 }
 
@@ -258,7 +260,8 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
   if (has_own_points)
     take_forces(contact, solution, picture);
   else
-    take_forces_of_displacements(system, solution, picture);
+    with_degree(system.degree,
+                [&](auto k) { take_forces_of_displacements<k + 1>(system, solution, picture); });
   if (w)
     for (const Eigen::Vector2d& r :
          between_bodies(contact, moments_of(system, *w, picture.frame))) {

@@ -39,9 +39,10 @@ class Judge {
                        const Record& record, const std::filesystem::path& file);
 
  private:
-  // Discretisation error of the reference's stresses with P2's displacements, or of the stresses of
-  // adapt_by or, for another degree, HYBRID with displacements recovered from them.
-  enum class Bound { p2, recovery };
+  // Discretisation error of the reference's stresses with the displacements of P2, P3, …, one
+  // degree more than theirs, or of the stresses of adapt_by or, for another degree, HYBRID with
+  // displacements recovered from them.
+  enum class Bound { displacement, recovery };
   struct Discretisation {  // of the last load step
     ConstitutiveError error;
     DisplacementField u;

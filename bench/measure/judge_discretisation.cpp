@@ -15,8 +15,9 @@ namespace airybench {
 std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
   if (method.in_displacements && !method.program.empty()) return {};  // it has its own
   const bool of_accuracy = options_.study.points == Study::Points::accuracy;
-  if (method.degree > 1) return Bound::recovery;  // P2 would be far less accurate
-  if (of_accuracy || method.in_displacements) return Bound::p2;
+  if (method.in_displacements) return Bound::displacement;
+  if (method.degree > 1) return Bound::recovery;
+  if (of_accuracy) return Bound::displacement;
   if (!options_.adapt.empty() || options_.fields || options_.study.bounds) return Bound::recovery;
   return {};
 }
@@ -46,12 +47,12 @@ void add_intervals(const ContactIntervals& intervals, Json& step) {
     }
 }
 
-std::pair<ConstitutiveError, DisplacementField> error_of_p2(const DualSystem& system,
-                                                            const Solution& reference,
-                                                            const DisplacementField& u) {
+std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const DualSystem& system,
+                                                                       const Solution& reference,
+                                                                       const DisplacementField& u) {
   ConstitutiveError error = constitutive_error(system, reference.stress, reference.F_C, u);
   if (error.flaw.empty()) return {std::move(error), u};
-  // P2 meets the law only at nodes (at a corner of two walls with the mean normal), and may
+  // They meet the law only at nodes (at a corner of two walls with the mean normal), and may
   // penetrate a wall in between.
   DisplacementField behind = admissible_displacement(system, reference.F_C, u);
   ConstitutiveError of_it = constitutive_error(system, reference.stress, reference.F_C, behind);
@@ -64,18 +65,18 @@ std::pair<ConstitutiveError, DisplacementField> error_of_p2(const DualSystem& sy
 // Each step's system measures slip from the stresses' own past.
 std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, int degree) {
   const ActivityScope scope(board_, Activity::discretisation);
-  std::vector<DisplacementField> of_p2;
+  std::vector<DisplacementField> own_u;
   Method method = select_methods(options_.adapt_by).front();
   if (method.degree != degree) method = select_methods(hybrid_of_degree(degree)).front();
   Solve solve = method.solve;
-  if (bound == Bound::p2) {
-    solve_load_steps(select_methods("P2").front(), problem_, {},
+  if (bound == Bound::displacement) {
+    solve_load_steps(select_methods(displacements_of_degree(degree + 1)).front(), problem_, {},
                      [&](int, const DualSystem&, const Solution& answer) {
-                       if (answer.status == Status::ok) of_p2.push_back(answer.displacement);
+                       if (answer.status == Status::ok) own_u.push_back(answer.displacement);
                      });
-    if (std::ssize(of_p2) < count_of_steps(*problem_)) return {};
-    solve = [this, step = 0](const DualSystem&, const RunControl&) mutable {
-      return answer_of(*reference(1, step++));
+    if (std::ssize(own_u) < count_of_steps(*problem_)) return {};
+    solve = [this, degree, step = 0](const DualSystem&, const RunControl&) mutable {
+      return answer_of(*reference(degree, step++));
     };
   }
   Discretisation result;
@@ -83,16 +84,16 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   DualSystem system = assemble(problem_, Blocks::contact_points, degree);
   solve_load_steps(solve, system, {}, [&](int step, const DualSystem& posed, const Solution& own) {
     if (own.status != Status::ok) return;
-    if (bound == Bound::p2) {
+    if (bound == Bound::displacement) {
       std::tie(result.error, result.u) =
-          error_of_p2(posed, own, of_p2[static_cast<std::size_t>(step)]);
+          error_of_displacements(posed, own, own_u[static_cast<std::size_t>(step)]);
     } else {
       result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
       result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
     }
     result.of_steps.push_back(shown(result.error));
     result.intervals.reset();
-    if (bound == Bound::p2 || !result.error.flaw.empty()) return;
+    if (bound == Bound::displacement || !result.error.flaw.empty()) return;
     if (!lifts) lifts = resultant_lifts(*problem_, degree);
     result.intervals =
         contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
@@ -121,14 +122,18 @@ void Judge::note_discretisation(const Method& method, Record& record) {
   if (record.other_solution) {
     record.no_discretisation_error = "it is known for the reference's solution only";
   } else if (known != nullptr) {
-    note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
+    note(known->error,
+         *bound == Bound::displacement ? displacements_of_degree(method.degree + 1) : "recovery",
+         record);
     if (known->intervals) note(*known->intervals, record);
     for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
       record.steps[k].update(known->of_steps[k]);
   } else if (method.in_displacements) {
-    record.no_discretisation_error = !references(1).missing.empty()     ? references(1).missing
-                                     : discretisation_left_out_.empty() ? "P2 has no answer"
-                                                                        : discretisation_left_out_;
+    const std::string& missing = references(method.degree).missing;
+    record.no_discretisation_error = !missing.empty() ? missing
+                                     : discretisation_left_out_.empty()
+                                         ? method.name + " has no answer"
+                                         : discretisation_left_out_;
   }
 }
 

@@ -225,7 +225,7 @@ void note_large_strains(const Problem& problem, const StressField& stress, Recor
         record);
 }
 
-void note(const ConstitutiveError& error, const char* by, Record& record) {
+void note(const ConstitutiveError& error, const std::string& by, Record& record) {
   if (error.flaw.empty()) {
     record.error_discretisation = error.relative;
     record.discretisation_by = by;

@@ -44,7 +44,7 @@ void add_run(const TimedRun& run, Record& record);
 
 void note(const Solution& solution, Record& record);
 // Needs the verification. by: Record::discretisation_by, the source of the displacements.
-void note(const ConstitutiveError& error, const char* by, Record& record);
+void note(const ConstitutiveError& error, const std::string& by, Record& record);
 void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
 // "; the least gap to the wall is 0.012 mm", of the body as it is held, before it deforms; empty:

@@ -311,9 +311,8 @@ Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementFi
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, off.cols());
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const QuadraticStiffness K =
-        quadratic_stiffness(quadratic_strain(problem.vertices_of(t)), problem.area_mm2(t),
-                            elasticity[problem.mesh.triangle_body[t]]);
+    const auto K = DisplacementTriangle<2>::stiffness(TriangleShape(problem.vertices_of(t)),
+                                                      elasticity[problem.mesh.triangle_body[t]]);
     const std::array<int, 6> nodes = triangle_nodes(problem, t);
     Eigen::Matrix<double, 2, 6> own;
     for (int m = 0; m < 6; ++m) own.col(m) = off.col(nodes[m]);
@@ -327,12 +326,13 @@ Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementFi
 
 Verification verify_displacement(const DualSystem& system, const Solution& solution) {
   const Problem& problem = *system.problem;
-  const ControlPoints control = control_points(problem);
+  const int degree = system.degree + 1;
+  const ControlPoints control = control_points(problem, degree);
   const int m = control.law.components;
   const LoadScale scale = load_scale(problem);
   const StressField stress = stress_of_displacement(problem, solution.displacement);
   NodalForces balance = nodal_forces(problem, stress);
-  balance.sum -= nodal_loads(problem);
+  balance.sum -= nodal_loads(problem, degree);
 
   Eigen::VectorXd displacement(control.law.size());
   for (int p = 0; p < control.law.count; ++p) {
@@ -350,7 +350,7 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
       balance.sum.col(node) += (std::copysign(beyond, off) - off) * t;
     }
   }
-  const PrescribedDisplacement prescribed = prescribed_displacement(problem);
+  const PrescribedDisplacement prescribed = prescribed_displacement(problem, degree);
   for (const auto& [node, n] : prescribed.normal)  // the roller's reaction
     balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
   if (solution.program && solution.program->print_precision > 0)

@@ -67,21 +67,22 @@ class ElementMatricesIn {
     lower.push_back(of_lower);
   }
   // K_e: its lower triangle is read.
-  void add(const Unknowns& of_element, const Point& at, const Matrix& K_e) {
-    std::array<Scalar, 78> of_lower;
+  template <int n>
+  void add(std::span<const int> of_element, const Point& at,
+           const Eigen::Matrix<Scalar, n, n>& K_e) {
+    std::array<Scalar, n*(n + 1) / 2> of_lower;
     auto* entry = of_lower.data();
-    for (int j = 0; j < 12; ++j)
-      for (int i = j; i < 12; ++i) *entry++ = K_e(i, j);
+    for (int j = 0; j < n; ++j)
+      for (int i = j; i < n; ++i) *entry++ = K_e(i, j);
     add(of_element, at, of_lower.data());
   }
   // An unknown by itself.
   void add_diagonal(int of, const Point& at, Scalar stiffness) {
-    Unknowns alone;
-    alone.fill(-1);
-    alone[0] = of;
-    Matrix K_e = Matrix::Zero();
-    K_e(0, 0) = stiffness;
-    add(alone, at, K_e);
+    std::vector<int> alone(static_cast<std::size_t>(size), -1);
+    std::vector<Scalar> of_lower(static_cast<std::size_t>(lower.length()), Scalar(0));
+    alone.front() = of;
+    of_lower.front() = stiffness;
+    add(alone, at, of_lower.data());
   }
   // y = K_e x.
   void multiply(int e, const Scalar* x, Scalar* y) const {

@@ -18,9 +18,11 @@ Solution failed(Status status, const std::string& message) {
 const char* flaw(const Solution& solution, const DualSystem& system) {
   const Problem& problem = *system.problem;
   const bool in_displacements = solution.displacement.cols() > 0;
-  const int forces = in_displacements ? control_points(problem).law.size() : system.contact.size();
+  const int degree = system.degree + 1;  // of displacements
+  const int forces =
+      in_displacements ? control_points(problem, degree).law.size() : system.contact.size();
   if (solution.F_C.size() != forces) return "contact forces are missing";
-  if (in_displacements && solution.displacement.cols() != displacement_nodes(problem))
+  if (in_displacements && solution.displacement.cols() != displacement_nodes(problem, degree))
     return "displacements are missing";
   if (solution.stress.size() != problem.mesh.triangles.size()) return "stresses are missing";
   bool finite =

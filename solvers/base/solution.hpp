@@ -59,8 +59,8 @@ struct Solution {
   Eigen::VectorXd contact_displacement;  // ū_C that belongs to them, mm; in the rows of F_C
   Eigen::VectorXd phi;  // Airy function as airy_function() gives it; empty: the method has none
   StressField stress;   // MPa
-  // Displacement methods only: Bernstein coefficients of w, without the problem's rigid motion, mm;
-  // columns: every vertex, then every edge.
+  // Displacement methods only: a DisplacementField w (displacement_field.hpp) of one degree more
+  // than the stresses, without the problem's rigid motion, mm.
   Eigen::Matrix2Xd displacement;
   // Hybridized methods only: the moments ū_j (equilibrium_element.hpp) of w on every edge; rows: x
   // and y of each, from the low vertex on; mm.

@@ -35,13 +35,15 @@ void add_of_control_points(const Problem& problem, const ControlPoints& points,
                            const Eigen::VectorXd& slip, Eigen::MatrixXd& slid) {
   std::map<int, double> of_node;
   for (int p = 0; p < points.law.count; ++p) of_node[points.node[p]] = slip(2 * p + 1);
-  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
-    if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
-    const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    for (int i = 0; i < 3; ++i)
-      if (const auto found = of_node.find(nodes[i]); found != of_node.end())
-        slid(i, row) += found->second;
-  }
+  with_degree(static_cast<int>(slid.rows()) - 2, [&](auto k) {
+    for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+      if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
+      const std::array<int, k + 2> nodes = boundary_nodes<k + 1>(problem, row);
+      for (int i = 0; i <= k + 1; ++i)
+        if (const auto found = of_node.find(nodes[i]); found != of_node.end())
+          slid(i, row) += found->second;
+    }
+  });
 }
 
 template <typename Value>
@@ -100,14 +102,14 @@ Eigen::MatrixXd slid_after(const DualSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
   if (!problem.has_friction() || system.contact.count == 0) return {};
   const bool in_displacements = answer.displacement.cols() > 0;
-  const Eigen::Index coefficients = in_displacements ? 3 : system.contact.per_edge;
+  const Eigen::Index coefficients = system.degree + (in_displacements ? 2 : 1);
   Eigen::MatrixXd slid = problem.loads.slid_mm;
   if (slid.size() == 0) slid.setZero(coefficients, std::ssize(problem.mesh.boundary));
   if (slid.rows() != coefficients)
     throw std::invalid_argument("slip of degree " + std::to_string(slid.rows() - 1) +
                                 " before a step of degree " + std::to_string(coefficients - 1));
   if (in_displacements) {
-    const ControlPoints points = control_points(problem);
+    const ControlPoints points = control_points(problem, system.degree + 1);
     add_of_control_points(problem, points, less_gap(points.law, answer.contact_displacement), slid);
   } else {
     add_of_contact_points(system.contact, less_gap(system.contact, answer.contact_displacement),
@@ -119,8 +121,9 @@ Eigen::MatrixXd slid_after(const DualSystem& system, const Solution& answer) {
 double dissipation_Nmm(const DualSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
   if (!problem.has_friction() || answer.contact_displacement.size() == 0) return 0;
-  const ContactPoints law =
-      answer.displacement.cols() > 0 ? control_points(problem).law : system.contact;
+  const ContactPoints law = answer.displacement.cols() > 0
+                                ? control_points(problem, system.degree + 1).law
+                                : system.contact;
   const Eigen::VectorXd slip = less_gap(law, answer.contact_displacement);
   double work = 0;
   for (int p = 0; p < law.count; ++p) work -= answer.F_C(2 * p + 1) * slip(2 * p + 1);

@@ -175,18 +175,6 @@ TEST(DisplacementField, ClapeyronsTheorem) {
   }
 }
 
-TEST(DisplacementField, StiffnessIsSymmetricWithTheRigidMotionsAsItsKernel) {
-  TriangleVertices v;
-  v << 0.3, 2, 1.1, -0.2, 0.4, 1.7;
-  const Eigen::Matrix3d A = compliance({young, poisson}, Plane::strain).inverse();
-  const double area = cross_area(v.col(0), v.col(1), v.col(2)) / 2;
-  const QuadraticStiffness K = quadratic_stiffness(quadratic_strain(v), area, A);
-  EXPECT_LT((K - K.transpose()).norm(), 1e-14 * K.norm());
-  const Eigen::VectorXd eigenvalues = testing::eigenvalues(K);
-  EXPECT_LT(eigenvalues.head(3).cwiseAbs().maxCoeff(), 1e-13 * eigenvalues(11));
-  EXPECT_GT(eigenvalues(3), 1e-4 * eigenvalues(11));
-}
-
 TEST(DisplacementField, NodalLoadsHaveTheLoadsResultantAndMoment) {
   Loads loads;
   loads.body_force_N_per_mm3 = {3, -1};

@@ -42,14 +42,15 @@ RunControl keeping() {
 class KeptBody : public ::testing::TestWithParam<Method> {
  protected:
   static DualSystem assembled(const Scene& scene = {}) {
-    return assemble(posed(scene), GetParam().blocks);
+    return assemble(posed(scene), GetParam().blocks, GetParam().degree);
   }
 };
 INSTANTIATE_TEST_SUITE_P(
     Table, KeptBody,
-    ::testing::ValuesIn(select_methods(
-        "HYBRID,HYBRID:CHOLMOD,HYBRID:MUMPS,HYBRID:CG,P2,3STEPD,3STEPD:REFINED,3STEPD:FILE,"
-        "3STEPD:LEAN,3STEPD:CHOLMOD,BLIND,BLIND:SKY,BLIND:SCHUR,BLIND:SCHUR:REFINED,ALM:AUTO")),
+    ::testing::ValuesIn(
+        select_methods("HYBRID,HYBRID:CHOLMOD,HYBRID:MUMPS,HYBRID:CG,P2,P4,3STEPD,3STEPD:REFINED,"
+                       "3STEPD:FILE,3STEPD:LEAN,3STEPD:CHOLMOD,BLIND,BLIND:SKY,BLIND:SCHUR,BLIND:"
+                       "SCHUR:REFINED,ALM:AUTO")),
     testing::readable);
 
 // ALM:AUTO keeps its factor, HYBRID:CG both levels: the iterations are every load case's own.
@@ -94,7 +95,8 @@ TEST_P(KeptBody, RefusesAnotherBody) {
   softer.material.young_MPa /= 2;
   for (const auto& problem :
        {posed({}, testing::small_tooth(7, 5)), posed(frictionless), posed(softer)}) {
-    const Solution refused = run(first.solve_again, assemble(problem, GetParam().blocks), {});
+    const Solution refused =
+        run(first.solve_again, assemble(problem, GetParam().blocks, GetParam().degree), {});
     EXPECT_EQ(refused.status, Status::crashed);
     EXPECT_NE(refused.message.find("of another body"), std::string::npos) << refused.message;
   }

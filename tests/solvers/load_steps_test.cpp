@@ -62,8 +62,8 @@ class LoadSteps : public ::testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(
     Methods, LoadSteps,
     ::testing::ValuesIn(select_methods(testing::hybrid_of_every_degree() +
-                                       ",HYBRID:CG,P2,3STEPD:CHOLMOD,3STEPD:REFINED,BLIND:SCHUR,"
-                                       "ALM:AUTO,SSKY")),
+                                       ",HYBRID:CG,P2,P3,P4,3STEPD:CHOLMOD,3STEPD:REFINED,"
+                                       "BLIND:SCHUR,ALM:AUTO,SSKY")),
     testing::readable);
 
 TEST_P(LoadSteps, TheFirstIsTheSingleSolve) {

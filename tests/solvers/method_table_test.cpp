@@ -96,7 +96,7 @@ TEST(Methods, EachSaysItsFamilyAndItsPreconditioner) {
         << method.name;
   }
   EXPECT_EQ(families, (std::set<std::string>{"3STEPCG", "3STEPD", "ALM", "BLIND", "HYBRID",
-                                             "HYBRID:CG", "P2", "SYMMLQ"}));
+                                             "HYBRID:CG", "P2", "P3", "P4", "SYMMLQ"}));
 }
 
 TEST(Methods, APreconditionerHasOneSpelling) {

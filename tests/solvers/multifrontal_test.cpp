@@ -35,7 +35,7 @@ ElementMatrices grid_elements(int side, bool blocks_of_unlike_size = false) {
       }
       const ElementMatrices::Matrix root =
           ElementMatrices::Matrix::NullaryExpr([&] { return number(random); });
-      K.add(own, {x + 0.5, y + 0.5}, root * root.transpose());
+      K.add(own, {x + 0.5, y + 0.5}, ElementMatrices::Matrix(root * root.transpose()));
     }
   K.order = 4 * 2 * columns * side;
   for (int u = 0; u < K.order; u += 4) {
@@ -43,7 +43,7 @@ ElementMatrices grid_elements(int side, bool blocks_of_unlike_size = false) {
     edge.fill(-1);
     std::iota(edge.begin(), edge.begin() + 4, u);
     const ElementMatrices::Point at = {u / 4 % side + 1.0, u / 4 / side % columns + 0.0};
-    K.add(edge, at, ElementMatrices::Matrix::Identity());
+    K.add(edge, at, ElementMatrices::Matrix(ElementMatrices::Matrix::Identity()));
     if (blocks_of_unlike_size) K.add_diagonal(u, at, 1);
   }
   return K;

@@ -125,7 +125,8 @@ TEST_P(ConstantStress, IsExactWhateverTheWallDoes) {
     const Exact exact(block);
     const auto problem =
         testing::posed(scene_of(block, exact), testing::small_block(4, 4, block.turn));
-    const Solution solution = run(method, assemble(problem, method.blocks), control_of(method));
+    const Solution solution =
+        run(method, assemble(problem, method.blocks, method.degree), control_of(method));
     ASSERT_EQ(solution.status, Status::ok) << solution.message;
     expect_exact(*problem, exact.field(), solution, rounding);
     Eigen::Vector2d contact = Eigen::Vector2d::Zero();
@@ -148,18 +149,18 @@ TEST_P(ConstantStress, IsExactOnAToothPointByPoint) {
     const auto problem = std::make_shared<const Problem>(
         make_problem(testing::small_tooth(5, 4), {compliance(material, Plane::stress)},
                      testing::loads_of(exact.field()), mu));
-    const DualSystem system = assemble(problem, method.blocks);
+    const DualSystem system = assemble(problem, method.blocks, method.degree);
     const Solution solution = run(method, system, testing::with_tolerance(1e-13));
     ASSERT_EQ(solution.status, Status::ok) << solution.message;
     expect_exact(*problem, exact.field(), solution, method.is_iterative() ? 1e-9 : 1e-10);
-    const ControlPoints control = control_points(*problem);
+    const ControlPoints control = control_points(*problem, method.degree + 1);
     for (Eigen::Index p = 0; p < solution.F_C.size() / 2; ++p) {
       double weight_mm = 0.75;        // of half an edge
-      if (method.in_displacements) {  // ∫ B: a third of an edge for each of its nodes
+      if (method.in_displacements) {  // ∫ B: the same part of an edge for each of its nodes
         const bool is_edge = control.node[p] >= static_cast<int>(problem->mesh.vertices.size());
         const bool is_inner =
             !is_edge && std::abs(problem->mesh.vertices[control.node[p]].y()) < 2.9;
-        weight_mm = is_inner ? 1 : 0.5;
+        weight_mm = (is_inner ? 3 : 1.5) / (method.degree + 2);
       }
       EXPECT_NEAR(solution.F_C(2 * p), -pressure * weight_mm, 1e-7) << p;
       EXPECT_NEAR(solution.F_C(2 * p + 1), block.shear * weight_mm, 1e-7) << p;
@@ -196,7 +197,7 @@ TEST_P(ConstantStress, IsExactBetweenTwoRollersAndAWall) {
       scene.boundary["displacement:bottom"].support = BoundaryValues::Support::normal;
       scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{q, q}};
       const auto problem = testing::posed(scene, mesh);
-      const DualSystem system = assemble(problem, method.blocks);
+      const DualSystem system = assemble(problem, method.blocks, method.degree);
       if (method.blocks == Blocks::airy) {
         EXPECT_EQ(solved_sizes(problem).n_f, system.n_f());
       }
@@ -231,7 +232,8 @@ TEST_P(ConstantStress, IsExactBetweenObliqueRollers) {
   for (const BoundaryEdge& edge : mesh.boundary)
     loads.rollers.push_back(edge.role == BoundaryRole::displacement);
   const auto problem = std::make_shared<const Problem>(make_problem(mesh, {c}, loads, 0));
-  const Solution solution = run(method, assemble(problem, method.blocks), control_of(method));
+  const Solution solution =
+      run(method, assemble(problem, method.blocks, method.degree), control_of(method));
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   expect_exact(*problem, exact, solution, rounding);
   if (!method.in_displacements) {  // P2's forces at the corners act along the rollers
@@ -241,7 +243,8 @@ TEST_P(ConstantStress, IsExactBetweenObliqueRollers) {
 
 std::vector<Method> all_kinds() {
   std::vector<Method> all = testing::kinds_of_methods();
-  for (const Method& method : select_methods("3STEPCG3,SDTIC6,SSKY,P2,ALM")) all.push_back(method);
+  for (const Method& method : select_methods("3STEPCG3,SDTIC6,SSKY,P2,P3,P4,ALM"))
+    all.push_back(method);
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, ConstantStress, ::testing::ValuesIn(all_kinds()),

@@ -65,6 +65,8 @@ TEST(TwoBodies, AConstantStressPassesBetweenMeshesThatDoNotMatch) {
     for (const auto& [name, accuracy] : {std::pair("HYBRID", 1e-10),
                                          {"HYBRID:CHOLMOD", 1e-10},
                                          {"P2", 1e-10},
+                                         {"P3", 1e-9},
+                                         {"P4", 1e-9},
                                          {"HYBRID:k=2", 1e-9},
                                          {"HYBRID:k=4", 1e-8},
                                          {"3STEPD:REFINED", 1e-10},
@@ -104,11 +106,13 @@ TEST(TwoBodies, AllMethodsAgree) {
         const Reference own = compute_reference(higher.system);
         EXPECT_LT(worst_measure(verify(higher.system, higher.solution, &own)).value, 1e-8);
       }
-      const Solved p2(scene, mesh, "P2");
-      const Verification of_p2 = verify_displacement(p2.system, p2.solution);
-      EXPECT_LT(worst_measure(of_p2).value, 1e-8) << "P2, mu " << friction;
       const Verification of_hybrid = verify(hybrid.system, hybrid.solution, &reference);
-      EXPECT_NEAR(*of_p2.normal_resultant_N / *of_hybrid.normal_resultant_N, 1, 0.03);
+      for (const char* name : {"P2", "P3", "P4"}) {
+        const Solved own(scene, mesh, name);
+        const Verification seen = verify_displacement(own.system, own.solution);
+        EXPECT_LT(worst_measure(seen).value, 1e-8) << name << ", mu " << friction;
+        EXPECT_NEAR(*seen.normal_resultant_N / *of_hybrid.normal_resultant_N, 1, 0.03) << name;
+      }
     }
 }
 
@@ -157,7 +161,7 @@ TEST(TwoBodies, OneThatIsVeryStiffIsARigidWall) {
   alone.material = {210000, 0.3};
   alone.wall = FlatWall{{0, 0}, {0, 1}};
   alone.displacement_mm = {0.004, -0.01};
-  for (const char* name : {"HYBRID", "HYBRID:k=3", "P2"}) {
+  for (const char* name : {"HYBRID", "HYBRID:k=3", "P2", "P3"}) {
     const Solved both(scene, two_blocks(10, 10), name), one(alone, block, name);
     const double energy = stress_norm_squared(one.problem(), one.solution.stress);
     EXPECT_NEAR(stress_norm_squared(both.problem(), both.solution.stress) / energy, 1, 1e-5)
@@ -186,7 +190,7 @@ TEST(TwoBodies, APathWithSlipDissipatesAsAtAWall) {
   block.name = "block";
   add_block(block, "block", {0, 0}, {12, 5}, 10, 4,
             {"contact:block", "force", "displacement:head", "force"});
-  for (const char* name : {"HYBRID", "HYBRID:k=2", "P2"}) {
+  for (const char* name : {"HYBRID", "HYBRID:k=2", "P2", "P3"}) {
     const auto work = [&](const Scene& of, const Mesh& mesh) {
       std::vector<double> works;
       solve_load_steps(select_methods(name).front(), testing::posed(of, mesh), {},
@@ -227,7 +231,7 @@ TEST(TwoBodies, AShrinkFitHasLamesPressure) {
   add_quarter_ring(mesh, "hub", a, b, 16, 8, "force", "contact:hub");
   add_quarter_ring(mesh, "rim", b, c, 21, 8, "contact:rim", "force");
   for (const auto& [name, accuracy] :
-       {std::pair("HYBRID", 0.01), {"HYBRID:k=2", 3e-3}, {"P2", 3e-3}}) {
+       {std::pair("HYBRID", 0.01), {"HYBRID:k=2", 3e-3}, {"P2", 3e-3}, {"P3", 3e-3}}) {
     const Solved solved(scene, mesh, name);
     double resultant = 0;
     if (solved.solution.displacement.cols() > 0) {

@@ -123,7 +123,8 @@ TEST(Walls, ARingTurnsInItsSocketWithoutStress) {
   Scene pressed = scene;
   pressed.wall = CircularWall{{0, 0}, 29.999, CircularWall::Bodies::inside};
   const double size = Solved(pressed, mesh, "HYBRID").energy();
-  for (const Method& method : select_methods(testing::hybrid_of_every_degree() + ",P2,BLIND:SCHUR"))
+  for (const Method& method :
+       select_methods(testing::hybrid_of_every_degree() + ",P2,P3,P4,BLIND:SCHUR"))
     EXPECT_LT(Solved(scene, mesh, method.name).energy(), 1e-20 * size) << method.name;
 }
 
@@ -169,7 +170,7 @@ TEST(Walls, ARoundWallHasNoStrictBoundsAndNoFalseCrossingOfThem) {
 }
 
 TEST(Walls, ATurnedBlockOnAFlatWallIsTheOneOnItsOwnFace) {
-  for (const char* method : {"HYBRID", "P2", "3STEPD"}) {
+  for (const char* method : {"HYBRID", "P2", "P3", "3STEPD"}) {
     Scene own;
     own.crown_radius_mm.reset();
     const Solved expected(own, testing::small_block(4, 4, 0), method);

@@ -87,7 +87,7 @@ struct Solved {
 TEST(FieldFiles, DisplacementsAreTheExactOnesWithTheRigidMotion) {
   const Mesh mesh = free_tooth(5, 4);
   for (const testing::ExactField& exact : testing::exact_fields(2000, 0.3))
-    for (const char* method : {"HYBRID", "HYBRID:k=3", "P2"}) {
+    for (const char* method : {"HYBRID", "HYBRID:k=3", "P2", "P3"}) {
       const Solved solved(
           make_problem(mesh, {compliance({2000, 0.3}, Plane::stress)}, testing::loads_of(exact), 0),
           method);
@@ -194,7 +194,7 @@ TEST(FieldFiles, VtkReadsBackWhatIsWritten) {
   Scene layered;
   layered.layers.count = 2;
   layered.layers.normal = {1, 0};
-  for (const char* method : {"HYBRID", "P2"}) {
+  for (const char* method : {"HYBRID", "P2", "P3"}) {
     const Solved solved(pose(layered, testing::small_tooth(6, 5)), method);
     const Solution dual = run(select_methods("HYBRID").front(), solved.system, {});
     const ConstitutiveError error =

@@ -38,7 +38,7 @@ std::vector<double> of_steps(const Record& record, const char* key) {
 
 TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
   for (const Method& method :
-       select_methods("HYBRID,HYBRID:k=2,HYBRID:k=4,P2,3STEPD:CHOLMOD,BLIND:SCHUR,ALM:AUTO")) {
+       select_methods("HYBRID,HYBRID:k=2,HYBRID:k=4,P2,P3,3STEPD:CHOLMOD,BLIND:SCHUR,ALM:AUTO")) {
     const Record record = summarised(method);
     EXPECT_EQ(record.outcome, "ok") << method.name << ": " << record.status_reason;
     EXPECT_EQ(record.load_steps, 3);
@@ -158,7 +158,7 @@ TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
     options.fields = true;
     return examined(testing::posed(scene), method, options);
   };
-  for (const char* method : {"HYBRID", "P2"}) {
+  for (const char* method : {"HYBRID", "P2", "P3"}) {
     const Record once = examined_in(1, method), path = examined_in(3, method);
     ASSERT_TRUE(once.error_discretisation && path.error_discretisation) << method;
     EXPECT_NEAR(*path.error_discretisation / *once.error_discretisation, 1, 1e-6) << method;
@@ -180,7 +180,7 @@ TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
 TEST(LoadStepRuns, WithFrictionTheErrorOfAStepIsOfItsOwnSlip) {
   Options options;
   options.fields = true;
-  for (const char* method : {"HYBRID", "HYBRID:k=3", "P2"}) {
+  for (const char* method : {"HYBRID", "HYBRID:k=3", "P2", "P3"}) {
     const Record record = examined(sheared_and_back(), method, options);
     ASSERT_EQ(record.steps.size(), 3u);
     const std::vector<double> error = of_steps(record, "error_discretisation"),

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 #include "mesh/msh_format.hpp"
 #include "solvers/base/blas_library.hpp"
@@ -124,6 +126,27 @@ TEST_F(AdaptCommand, MergedRunsHaveTheirMeshes) {
   EXPECT_NE(complaint().find("two meshes that would be one file"), std::string::npos)
       << complaint();
   EXPECT_FALSE(fs::exists(bench_.path("no")));
+}
+
+// Each against the reference's stresses of one degree less.
+TEST_F(AdaptCommand, DisplacementsOfDegreeThreeAreJudgedByStressesOfDegreeTwo) {
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID:k=2,P2,P3 --adapt=1%,by=HYBRID:k=2,levels=last "
+                  "--repetitions=1 --out=o"),
+            0)
+      << complaint();
+  std::map<std::string, Json> of;
+  for (const Json& r : bench_.records()) of[r["method"]] = r;
+  ASSERT_EQ(of.size(), 3u);
+  const auto error = [&](const char* method) { return of[method]["error_total"].get<double>(); };
+  for (const auto& [method, degree, by] :
+       {std::tuple("HYBRID:k=2", 2, "recovery"), {"P2", 1, "P2"}, {"P3", 2, "P3"}}) {
+    EXPECT_EQ(of[method]["degree"], degree) << method;
+    EXPECT_EQ(of[method]["discretisation_by"], by) << method;
+    EXPECT_EQ(of[method]["mesh"], of["P3"]["mesh"]);
+  }
+  EXPECT_LT(error("P3"), 1.01 * error("HYBRID:k=2"));
+  EXPECT_GT(error("P3"), 0.5 * error("HYBRID:k=2"));
+  EXPECT_GT(error("P2"), 1.5 * error("P3"));
 }
 
 TEST_F(AdaptCommand, AMarkingOf1RefinesEverywhereUnderANameOfItsOwn) {

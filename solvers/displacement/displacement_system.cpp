@@ -1,0 +1,201 @@
+#include "solvers/displacement/displacement_system.hpp"
+
+#include <algorithm>
+
+namespace airybench {
+namespace {
+
+// Numbers the unknowns, those of the control points last; returns how many there are.
+int number_unknowns(DisplacementSystem& system) {
+  constexpr int not_yet = -2, later = -3;
+  const ContactPoints& law = system.control.law;
+  system.unknown.assign(system.given.at.size(), {not_yet, not_yet});
+  for (std::size_t node = 0; node < system.unknown.size(); ++node)
+    if (system.given.at[node]) system.unknown[node].fill(DisplacementSystem::prescribed);
+  for (const auto& [node, normal] : system.given.normal)
+    system.unknown[node][0] = DisplacementSystem::prescribed;
+  for (int p = 0; p < law.count; ++p) {
+    auto& unknown = system.unknown[system.control.node[p]];
+    unknown[0] = later;
+    unknown[1] = system.control.on_roller[p] ? DisplacementSystem::prescribed
+                 : law.components == 2       ? later
+                                             : not_yet;
+  }
+  int count = 0;
+  for (auto& node : system.unknown)
+    for (int& number : node)
+      if (number == not_yet) number = count++;
+  for (int p = 0; p < law.count; ++p) {
+    const int node = system.control.node[p];
+    for (int k = 0; k < law.components; ++k, ++count) {
+      if (system.unknown[node][k] == later)
+        system.unknown[node][k] = count;
+      else
+        system.held_tangent[node] = count;
+    }
+  }
+  return count;
+}
+
+// The directions of the unknowns of nodes where they are not x and y.
+std::map<int, Eigen::Matrix2d> frames(const DisplacementSystem& system) {
+  std::map<int, Eigen::Matrix2d> frame;
+  for (int p = 0; p < system.control.law.count; ++p)
+    frame[system.control.node[p]] = system.control.frame(p);
+  for (const auto& [node, n] : system.given.normal) frame.try_emplace(node, normal_frame(n));
+  return frame;
+}
+
+// Adds forces at the nodes to a vector of the unknowns.
+void add_nodal(Eigen::Matrix2Xd forces, const std::map<int, Eigen::Matrix2d>& frame,
+               const DisplacementSystem& system, Eigen::VectorXd& b) {
+  for (const auto& [node, axes] : frame)
+    forces.col(node) = axes.transpose() * forces.col(node).eval();
+  for (Eigen::Index node = 0; node < forces.cols(); ++node)
+    for (int k = 0; k < 2; ++k)
+      if (const int number = system.unknown[node][k]; number != DisplacementSystem::prescribed)
+        b(number) += forces(k, node);
+}
+
+// A triangle in the unknowns' directions.
+template <int p>
+struct Element {
+  static constexpr int size = 2 * DisplacementTriangle<p>::nodes;
+  std::array<int, size / 2> nodes;
+  std::array<int, size> unknown;
+  Eigen::Matrix<double, size, 1> given;  // the prescribed coefficients, else 0
+  Eigen::Matrix<double, size, size> K;
+};
+
+template <int p>
+Element<p> element(const Problem& problem, const DisplacementSystem& system,
+                   const std::map<int, Eigen::Matrix2d>& frame, int t,
+                   const Eigen::Matrix3d& elasticity) {
+  Element<p> result;
+  result.nodes = triangle_nodes<p>(problem, t);
+  result.K = DisplacementTriangle<p>::stiffness(TriangleShape(problem.vertices_of(t)), elasticity);
+  for (int m = 0; m < Element<p>::size / 2; ++m) {
+    const int node = result.nodes[m];
+    Eigen::Vector2d given = system.given.u.col(node);
+    if (const auto own = frame.find(node); own != frame.end()) {
+      const Eigen::Matrix2d& axes = own->second;
+      auto columns = result.K.template middleCols<2>(2 * m);
+      columns = columns.lazyProduct(axes).eval();
+      auto rows = result.K.template middleRows<2>(2 * m);
+      rows = axes.transpose().lazyProduct(rows).eval();
+      given = axes.transpose() * given.eval();
+    }
+    result.given.template segment<2>(2 * m) = given;
+    for (int k = 0; k < 2; ++k) result.unknown[2 * m + k] = system.unknown[node][k];
+  }
+  return result;
+}
+
+// b −= K_e u0 of a triangle.
+template <int p>
+void subtract_known_forces(const Element<p>& element, DisplacementSystem& system) {
+  if (element.given.isZero(0)) return;
+  const Eigen::Matrix<double, Element<p>::size, 1> force = element.K.lazyProduct(element.given);
+  for (int j = 0; j < Element<p>::size; ++j)
+    if (element.unknown[j] != DisplacementSystem::prescribed)
+      system.b(element.unknown[j]) -= force(j);
+}
+
+template <int p>
+void add_triangles(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
+                   DisplacementSystem& system) {
+  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const Element<p> own =
+        element<p>(problem, system, frame, t, elasticity[problem.mesh.triangle_body[t]]);
+    const auto centre = centre_of(problem.vertices_of(t));
+    system.K.add(own.unknown, centre, own.K);
+    subtract_known_forces(own, system);
+    if (system.held_tangent.empty()) continue;
+    for (int j = 1; j < Element<p>::size; j += 2)
+      if (const auto row = system.held_tangent.find(own.nodes[j / 2]);
+          row != system.held_tangent.end() && own.unknown[j] == DisplacementSystem::prescribed)
+        system.K.add_diagonal(row->second, centre, own.K(j, j));
+  }
+}
+
+template <int p>
+void subtract_known_forces(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
+                           DisplacementSystem& system) {
+  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
+    if (std::ranges::any_of(triangle_nodes<p>(problem, t),
+                            [&](int node) { return !system.given.u.col(node).isZero(0); }))
+      subtract_known_forces(
+          element<p>(problem, system, frame, t, elasticity[problem.mesh.triangle_body[t]]), system);
+}
+
+void add_loads(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
+               DisplacementSystem& system) {
+  if (problem.loads.has_body_force() || problem.loads.traction_MPa)
+    add_nodal(nodal_loads(problem, system.degree), frame, system, system.b);
+}
+
+}  // namespace
+
+std::size_t DisplacementSystem::bytes() const {
+  return K.bytes() + static_cast<std::size_t>(b.size() + given.u.size()) * sizeof(double) +
+         unknown.size() * sizeof(unknown[0]);
+}
+
+DisplacementSystem assemble_displacement_system(const Problem& problem, int degree) {
+  DisplacementSystem system;
+  system.degree = degree;
+  system.control = control_points(problem, degree);
+  system.given = prescribed_displacement(problem, degree);
+  const int n = number_unknowns(system);
+  const std::map<int, Eigen::Matrix2d> frame = frames(system);
+  system.b = Eigen::VectorXd::Zero(n);
+  with_degree(degree - 1, [&](auto k) {
+    system.K = ElementMatrices(Element<k + 1>::size);
+    system.K.order = n;
+    system.K.reserve(problem.mesh.triangles.size());
+    add_triangles<k + 1>(problem, frame, system);
+  });
+  add_loads(problem, frame, system);
+  return system;
+}
+
+void set_load_case(const Problem& problem, DisplacementSystem& system) {
+  system.control = control_points(problem, system.degree);
+  system.given = prescribed_displacement(problem, system.degree);
+  system.b.setZero();
+  const std::map<int, Eigen::Matrix2d> frame = frames(system);
+  with_degree(system.degree - 1,
+              [&](auto k) { subtract_known_forces<k + 1>(problem, frame, system); });
+  add_loads(problem, frame, system);
+}
+
+DisplacementField displacement_field(const DisplacementSystem& system,
+                                     const Eigen::VectorXd& unknowns) {
+  DisplacementField u = system.given.u;
+  const auto set = [&](int node, auto&& components) {
+    for (int k = 0; k < 2; ++k)
+      if (const int number = system.unknown[node][k]; number != DisplacementSystem::prescribed)
+        components(k) = unknowns(number);
+  };
+  const std::map<int, Eigen::Matrix2d> frame = frames(system);
+  for (int node = 0; node < static_cast<int>(u.cols()); ++node)
+    if (!frame.contains(node)) set(node, u.col(node));
+  for (const auto& [node, axes] : frame) {
+    Eigen::Vector2d local = axes.transpose() * u.col(node);
+    set(node, local);
+    u.col(node) = axes * local;
+  }
+  return u;
+}
+
+Eigen::VectorXd unbalanced_forces(const Problem& problem, const DisplacementSystem& system,
+                                  const NodalForces& of_stresses, const Eigen::VectorXd& F_C) {
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(system.b.size());
+  add_nodal(nodal_loads(problem, system.degree) - of_stresses.sum, frames(system), system, r);
+  r.tail(system.n_c()) += F_C;
+  return r;
+}
+
+}  // namespace airybench

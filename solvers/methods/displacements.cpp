@@ -1,0 +1,69 @@
+// P2, P3, P4: displacements of that degree, multifrontal Cholesky. Solution::F_C are forces at the
+// control points: not the contact points of the system.
+#include "solvers/displacement/displacement_system.hpp"
+
+#include "solvers/base/method.hpp"
+#include "solvers/condensation/finish.hpp"
+#include "solvers/condensation/stiffness_body.hpp"
+#include "solvers/methods.hpp"
+
+namespace airybench {
+namespace {
+
+using DisplacementBody = StiffnessBody<DisplacementSystem>;
+
+void finish_displacements(const DualSystem& airy, const RunControl& control, DisplacementBody& body,
+                          Solution& solution) {
+  const Problem& problem = *airy.problem;
+  body.condensed.points = body.system.control.law;  // the load case's
+  finish_in_displacements(
+      problem, control, body.condensed, *body.factor,
+      [&](const Eigen::VectorXd& unknowns) {
+        solution.displacement = displacement_field(body.system, unknowns);
+        solution.stress = stress_of_displacement(problem, solution.displacement);
+      },
+      [&] {
+        const NodalForces forces = nodal_forces(problem, solution.stress);
+        return UnbalancedForces{
+            unbalanced_forces(problem, body.system, forces, solution.F_C), forces.largest, {}, 0};
+      },
+      solution);
+}
+
+Solution solve_displacements(const DualSystem& airy, const RunControl& control) {
+  const auto body = std::make_shared<DisplacementBody>();
+  DisplacementSystem& system = body->system;
+  Solution solution;
+  system = run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix,
+                     [&] { return assemble_displacement_system(*airy.problem, airy.degree + 1); });
+  solution.storage[MemoryOwner::system_matrix] = system.bytes();
+  body->factor = std::make_unique<MultifrontalStiffness>(system.K, system.n_c());
+  body->condensed = factorise_and_condense(*body->factor, system.b, system.control.law,
+                                           "displacement system", control.deadline, solution);
+  finish_displacements(airy, control, *body, solution);
+  keep_if_told(airy, control, body, finish_displacements, solution);
+  return solution;
+}
+
+// The system has stresses of degree p − 1.
+Method displacement_method(int degree, const char* summary) {
+  const std::string name = displacements_of_degree(degree);
+  return {.name = name,
+          .family = name,
+          .summary = summary,
+          .blocks = Blocks::contact_points,
+          .degree = degree - 1,
+          .in_displacements = true,
+          .solve = solve_displacements};
+}
+
+}  // namespace
+
+Method p2() {
+  return displacement_method(
+      2, "quadratic displacements, multifrontal Cholesky: what most users would run instead");
+}
+Method p3() { return displacement_method(3, "P2 with displacements of degree 3"); }
+Method p4() { return displacement_method(4, "P2 with displacements of degree 4"); }
+
+}  // namespace airybench

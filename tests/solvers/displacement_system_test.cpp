@@ -1,0 +1,313 @@
+// P2, P3, P4 are other discrete problems than all the others: exactness where the exact field has
+// their degree, admissibility, and their own contact law.
+#include "solvers/displacement/displacement_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/SparseCholesky>
+#include <complex>
+
+#include "assembly/edge_forces.hpp"
+#include "tests/support/exact_fields.hpp"
+#include "tests/support/method_names.hpp"
+#include "tests/support/polynomial.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/solved.hpp"
+
+namespace airybench::displacement_system_test {
+namespace {
+
+using testing::displacement_deviation, testing::posed, testing::small_tooth;
+constexpr double young = 2000, poisson = 0.3;
+
+class Displacements : public ::testing::TestWithParam<Method> {
+ protected:
+  const int k = GetParam().degree, p = k + 1;
+
+  DualSystem assembled(const std::shared_ptr<const Problem>& problem) const {
+    return assemble(problem, Blocks::contact_points, k);
+  }
+  Solution solve(const std::shared_ptr<const Problem>& problem,
+                 const RunControl& control = {}) const {
+    return run(GetParam(), assembled(problem), control);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Degrees, Displacements, ::testing::ValuesIn(select_methods("P2,P3,P4")),
+                         testing::readable);
+
+TEST_P(Displacements, ReproduceQuadraticFieldsExactlyWithBodyForceAndTractions) {
+  const Mesh mesh =
+      testing::with_role(small_tooth(5, 4), BoundaryRole::contact, BoundaryRole::force);
+  for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
+    const auto problem = std::make_shared<const Problem>(make_problem(
+        mesh, {compliance({young, poisson}, Plane::stress)}, testing::loads_of(exact), 0.2));
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::ok) << solution.message;
+    EXPECT_LT(displacement_deviation(*problem, solution.displacement, exact), 1e-11) << exact.name;
+    EXPECT_LT(testing::stress_deviation(*problem, solution.stress, exact), 1e-10) << exact.name;
+    EXPECT_EQ(solution.F_C.size(), 0);
+    EXPECT_FALSE(solution.contact_iterations);  // no contact loop
+    EXPECT_FALSE(solution.times[Stage::contact]);
+  }
+}
+
+using Complex = std::complex<double>;
+Complex power(Complex z, int n) { return n == 0 ? 1 : z * power(z, n - 1); }
+
+// 2G u = κ φ(z) − z conj(φ'(z)), which needs no body force; plane strain.
+template <typename Function, typename Derivative>
+auto displacement_of(double nu, Function phi, Derivative of_phi) {
+  return [=](const Eigen::Vector2d& x) -> Eigen::Vector2d {
+    const Complex z(x.x() / 10, x.y() / 10), u = (3 - 4 * nu) * phi(z) - z * std::conj(of_phi(z));
+    return {u.real(), u.imag()};
+  };
+}
+
+// The discrete solution between boundary values that interpolate u; no loads, all of the boundary
+// held.
+template <int p, typename Function>
+DisplacementField between_values_of(const Function& u, const Problem& problem) {
+  DisplacementSystem system = assemble_displacement_system(problem, p);
+  system.given.u = testing::interpolated<p>(problem, u);
+  for (std::size_t node = 0; node < system.given.at.size(); ++node)
+    if (!system.given.at[node]) system.given.u.col(static_cast<Eigen::Index>(node)).setZero();
+  const Eigen::VectorXd b = unbalanced_forces(
+      problem, system, nodal_forces(problem, stress_of_displacement(problem, system.given.u)), {});
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(lower_triangle(system.K));
+  return displacement_field(system, factor.solve(b));
+}
+
+Problem held_all_around(int cells, double nu) {
+  Mesh mesh = small_tooth(cells, cells);
+  for (BoundaryEdge& edge : mesh.boundary) edge.role = BoundaryRole::displacement;
+  return make_problem(mesh, {compliance({young, nu}, Plane::strain)}, {}, 0);
+}
+
+TEST_P(Displacements, ReproducePolynomialsOfTheirDegreeUpToIncompressibility) {
+  with_degree(k, [&](auto stress_degree) {
+    constexpr int degree = stress_degree + 1;
+    for (const double nu : {0.3, 0.4999}) {
+      const Problem problem = held_all_around(3, nu);
+      const auto exact = displacement_of(
+          nu, [n = degree](Complex z) { return power(z, n); },
+          [n = degree](Complex z) { return power(z, n - 1) * double(n); });
+      const DisplacementField expected = testing::interpolated<degree>(problem, exact);
+      EXPECT_LT((between_values_of<degree>(exact, problem) - expected).norm(),
+                (nu > 0.4 ? 1e-9 : 1e-12) * expected.norm())
+          << nu;
+    }
+  });
+}
+
+TEST_P(Displacements, AreOfTheNextOrderWhereTheSolutionIsSmooth) {
+  with_degree(k, [&](auto stress_degree) {
+    constexpr int degree = stress_degree + 1;
+    const auto wave = [](Complex z) { return std::exp(2. * z); };
+    const auto of_wave = [](Complex z) { return 2. * std::exp(2. * z); };
+    const auto exact = displacement_of(poisson, wave, of_wave);
+    std::array<double, 2> error{};
+    for (const int finer : {0, 1}) {
+      const Problem problem = held_all_around(finer == 1 ? 8 : 4, poisson);
+      const DisplacementField u = between_values_of<degree>(exact, problem);
+      for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+        const Eigen::Vector3d lambda(0.2, 0.5, 0.3);
+        error[finer] += problem.area_mm2(t) * (displacement_at(problem, u, t, lambda) -
+                                               exact(problem.vertices_of(t) * lambda))
+                                                  .squaredNorm();
+      }
+    }
+    EXPECT_NEAR(std::log2(error[0] / error[1]) / 2, degree + 1, 0.5);
+  });
+}
+
+// Pressed between three rollers and a wall that is met everywhere: u is cubic, and quadratic on
+// every edge of the block. φ = c (x⁴ − y⁴) has no shear.
+TEST_P(Displacements, FromDegreeThreeOnACubicFieldAgainstAWallIsExact) {
+  constexpr double c = 0.1;
+  const Eigen::Matrix3d C = compliance({young, poisson}, Plane::strain);
+  const double e = 12 * c * C(0, 0), cross = -12 * c * C(0, 1);  // ε_xx = −e y² − cross x²
+  testing::ExactField exact;
+  exact.body_force.setZero();
+  exact.stress = [=](const Eigen::Vector2d& x) {
+    return Eigen::Vector3d(-12 * c * x.y() * x.y(), 12 * c * x.x() * x.x(), 0);
+  };
+  exact.displacement = [=](const Eigen::Vector2d& x) {
+    return Eigen::Vector2d(-e * x.x() * x.y() * x.y() - cross * std::pow(x.x(), 3) / 3,
+                           e * x.x() * x.x() * x.y() + cross * std::pow(x.y(), 3) / 3);
+  };
+  Mesh mesh = testing::with_role(testing::small_block(3, 3, 0), BoundaryRole::force,
+                                 BoundaryRole::displacement);
+  Loads loads;
+  loads.displacement_mm = [&](const Eigen::Vector2d& x, int) { return exact.displacement(x); };
+  loads.gap_mm = [&](const Eigen::Vector2d& x, int) { return exact.displacement(x).x(); };
+  for (const BoundaryEdge& edge : mesh.boundary)
+    loads.rollers.push_back(edge.role == BoundaryRole::displacement);
+  const auto problem = std::make_shared<const Problem>(make_problem(mesh, {C}, loads, 0));
+  const Solution solution = solve(problem);
+  ASSERT_EQ(solution.status, Status::ok) << solution.message;
+  const double off = displacement_deviation(*problem, solution.displacement, exact);
+  if (p == 2)
+    EXPECT_GT(off, 1e-4);
+  else
+    EXPECT_LT(off, 1e-10);
+  if (p > 2) {
+    EXPECT_LT(testing::stress_deviation(*problem, solution.stress, exact), 1e-9);
+    EXPECT_NEAR(solution.F_C.sum(), -4 * c * 1000, 1e-7);  // ∫ −12 c y² dy
+  }
+}
+
+TEST_P(Displacements, NowherePenetrateTheWallAndMeetWhatIsPrescribed) {
+  for (const double mu : {0.0, 0.2, 1.0})
+    for (const Eigen::Vector2d& body_force : {Eigen::Vector2d(0, 0), Eigen::Vector2d(30, -10)}) {
+      Scene scene;
+      scene.friction = mu;
+      scene.body_force_N_per_mm3 = body_force;
+      const auto problem = posed(scene);
+      const Solution solution = solve(problem);
+      ASSERT_EQ(solution.status, Status::ok) << solution.message;
+      const DisplacementField field = with_rigid_motion(*problem, solution.displacement);
+      double closest = -1;
+      for (int row = 0; row < static_cast<int>(problem->mesh.boundary.size()); ++row) {
+        const BoundaryEdge& edge = problem->mesh.boundary[row];
+        if (edge.role == BoundaryRole::force) continue;
+        const auto &a = problem->mesh.vertices[edge.vertices[0]],
+                   &b = problem->mesh.vertices[edge.vertices[1]];
+        std::vector<Eigen::Vector2d> coefficients;
+        with_degree(k, [&](auto stress_degree) {
+          for (const int node : boundary_nodes<stress_degree + 1>(*problem, row))
+            coefficients.emplace_back(field.col(node));
+        });
+        for (int i = 0; i <= 100; ++i) {
+          const double s = i / 100.;
+          const Eigen::Vector2d x = (1 - s) * a + s * b, u = bernstein_value(coefficients, s);
+          if (edge.role == BoundaryRole::displacement) {
+            EXPECT_LT((u - scene.displacement_mm).norm(), 1e-15);
+          } else {
+            const double r = edge_frame(a, b).normal.dot(u) - problem->loads.gap_mm(x, row);
+            EXPECT_LE(r, 1e-13) << "at y = " << x.y();
+            closest = std::max(closest, r);
+          }
+        }
+      }
+      EXPECT_GT(closest, -1e-12);  // it does touch
+    }
+}
+
+TEST_P(Displacements, ContactForcesBalanceReactionsAndLoads) {
+  Scene scene;
+  scene.body_force_N_per_mm3 = {3, -1};
+  const auto problem = posed(scene);
+  const DisplacementSystem system = assemble_displacement_system(*problem, p);
+  const Solution solution = solve(problem);
+  // Reactions from the definition: Σ over all nodes of the elements' forces is zero.
+  Eigen::Vector2d reactions = Eigen::Vector2d::Zero(), contact = Eigen::Vector2d::Zero();
+  with_degree(k, [&](auto stress_degree) {
+    using Triangle = DisplacementTriangle<stress_degree + 1>;
+    for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t) {
+      const auto K = Triangle::stiffness(TriangleShape(problem->vertices_of(t)),
+                                         elasticity_of(problem->compliance_of(t)));
+      const auto nodes = triangle_nodes<stress_degree + 1>(*problem, t);
+      const Eigen::VectorXd force =
+          K * of_triangle<stress_degree + 1>(*problem, solution.displacement, t).reshaped();
+      for (int m = 0; m < Triangle::nodes; ++m)
+        if (system.given.at[nodes[m]]) reactions += force.segment<2>(2 * m);
+    }
+  });
+  const Eigen::Matrix2Xd loads = nodal_loads(*problem, p);
+  for (Eigen::Index node = 0; node < loads.cols(); ++node)
+    if (system.given.at[node]) reactions -= loads.col(node);
+  for (int i = 0; i < system.control.law.count; ++i)  // n = x, s = y on the tip
+    contact += solution.F_C.segment<2>(2 * i);
+  const Eigen::Vector2d weight = 80 * scene.body_force_N_per_mm3;
+  EXPECT_LT((reactions + contact + weight).norm(), 1e-9 * reactions.norm());
+}
+
+// Without friction the energy is above that of degrees_test.cpp's graded mesh, the nearer the
+// higher the degree; the forces are HYBRID's.
+TEST(DisplacementDegrees, AreNearerToTheEnergyOfTheToothOneByOne) {
+  constexpr double energy_Nmm = 26.5292017;
+  double before = 1;
+  for (int degree = 2; degree <= 4; ++degree)
+    for (const double friction : {0., 0.2}) {
+      Scene scene;
+      scene.friction = friction;
+      const auto problem = posed(scene, small_tooth(12, 9));
+      const DualSystem system = assemble(problem, Blocks::contact_points, degree - 1);
+      const Solution own = testing::solved_by(displacements_of_degree(degree), system),
+                     hybrid = testing::solved_by(hybrid_of_degree(degree - 1), system);
+      const int m = system.contact.components;
+      const auto sum = [m](const Solution& s) {
+        return Eigen::VectorXd(s.F_C.reshaped(m, s.F_C.size() / m).rowwise().sum());
+      };
+      EXPECT_LT((sum(own) - sum(hybrid)).norm(), 0.01 * sum(hybrid).norm()) << degree;
+      if (friction > 0) continue;
+      const double energy = stress_norm_squared(*problem, own.stress) / 2 - energy_Nmm;
+      EXPECT_GT(energy, 0) << degree;
+      EXPECT_LT(energy, 0.7 * before) << degree;
+      before = energy;
+    }
+}
+
+TEST_P(Displacements, AContactVertexOnThePrescribedBoundaryHasNoLaw) {
+  const Mesh mesh =
+      testing::with_role(small_tooth(6, 5), BoundaryRole::force, BoundaryRole::displacement);
+  Scene scene;
+  scene.displacement_mm = {0.005, 0.002};  // less than the gap at the face's ends
+  const auto problem = posed(scene, mesh);
+  const Solution solution = solve(problem);
+  ASSERT_EQ(solution.status, Status::ok) << solution.message;
+  EXPECT_EQ(solution.F_C.size(), 2 * (5 * p + 1 - 2));  // five edges, less the face's ends
+  const DisplacementField u = with_rigid_motion(*problem, solution.displacement);
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    if (edge.role != BoundaryRole::displacement) continue;
+    for (const int vertex : edge.vertices)
+      EXPECT_LT((u.col(vertex) - scene.displacement_mm).norm(), 1e-16);
+  }
+}
+
+TEST_P(Displacements, OfABodyThatOnlyMovesHaveNoStress) {
+  Scene scene;
+  scene.clearance_mm = 1;
+  const auto problem = posed(scene);
+  const Solution solution = solve(problem);
+  EXPECT_TRUE(solution.F_C.isZero(0));
+  EXPECT_LT(std::sqrt(stress_norm_squared(*problem, solution.stress)), 1e-9);
+  testing::ExactField moved;
+  moved.displacement = [&](const auto&) { return scene.displacement_mm; };
+  EXPECT_LT(displacement_deviation(*problem, solution.displacement, moved), 1e-12);
+}
+
+TEST_P(Displacements, OfABodyFarFromTheOriginAreTheSame) {
+  Mesh moved = small_tooth(6, 5);
+  for (Eigen::Vector2d& x : moved.vertices) x += Eigen::Vector2d(1e5, -2e5);
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  const Solution here = solve(posed(scene)), there = solve(posed(scene, moved));
+  ASSERT_EQ(there.status, Status::ok) << there.message;
+  EXPECT_LT((here.F_C - there.F_C).norm(), 1e-8 * here.F_C.norm());
+}
+
+TEST_P(Displacements, WhatGoesWrongBecomesAStatus) {
+  EXPECT_EQ(solve(posed({}), testing::out_of_time()).status, Status::timeout);
+
+  const auto problem = posed({});
+  const DualSystem system = assembled(problem);
+  const auto spoiled = [&](auto spoil) {
+    return run(
+        [&](const DualSystem& s, const RunControl& control) {
+          Solution solution = GetParam().solve(s, control);
+          spoil(solution);
+          return solution;
+        },
+        system, {});
+  };
+  EXPECT_EQ(spoiled([](Solution&) {}).status, Status::ok);
+  EXPECT_EQ(spoiled([](Solution& s) { s.F_C.conservativeResize(5); }).status, Status::breakdown);
+  EXPECT_EQ(spoiled([](Solution& s) { s.displacement.conservativeResize(2, 3); }).status,
+            Status::breakdown);
+  EXPECT_EQ(spoiled([](Solution& s) { s.displacement(1, 4) = std::nan(""); }).status,
+            Status::breakdown);
+}
+
+}  // namespace
+}  // namespace airybench::displacement_system_test
