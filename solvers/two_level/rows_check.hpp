@@ -9,8 +9,8 @@
 //   (‖δ‖_K + ‖δ_F‖_K + 2 ‖e_c‖_D) / √(F·M⁻¹F)  contact forces: Kδ = K δ_F + ΔF, and M⁻¹ ≤ K⁻¹
 //   ‖e_c‖ / ‖F‖   contact law: e_c = F − P(F − ρ r_c) with the displacements that δ_F corrects and
 //                 ρ = 1/D_jj from above (contact_compliance.hpp); by it, in the D norm with D_jj
-//                 alone, forces are off twice (docs/theory.md, ALM's estimate). On a soft layer next
-//                 to a stiff one a point's law may be wrong and ‖e_c‖ nothing next to ‖F‖
+//                 alone, forces are off twice (docs/theory.md, ALM's estimate). On a soft layer
+//                 next to a stiff one a point's law may be wrong and ‖e_c‖ nothing next to ‖F‖
 //   ‖r‖_∞ / ‖forces‖_∞                        equilibrium
 //
 // with a half more on what is solved for.
