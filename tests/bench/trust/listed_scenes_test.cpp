@@ -106,8 +106,8 @@ TEST(ListedScenes, BoundsDoNotCross) {
   EXPECT_NEAR(*record.error_discretisation, 0.05, 0.02);
 }
 
-// The law of points on a layer 1e7 times softer than the next: before, stresses were 1.3e-6 off, the
-// estimate was 3.5e-8.
+// The law of points on a layer 1e7 times softer than the next: before, stresses were 1.3e-6 off,
+// the estimate was 3.5e-8.
 TEST(ListedScenes, HybridCgKnowsTheContactLawOfSoftLayersNextToStiffOnes) {
   const auto problem =
       testing::posed(testing::random_scene(1, 113), testing::catalogue_mesh("Mesh0"));
