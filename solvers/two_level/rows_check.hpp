@@ -6,14 +6,16 @@
 // one with F_C held, K δ_F = r + d, to two digits each, give the largest of
 //
 //   √(e² + δᵀKδ − 2 δ·d) / ‖σ‖                stress, in the energy norm
-//   (‖δ‖_K + ‖δ_F‖_K + 2 ‖e_c‖_D) / √(F·M⁻¹F)  contact forces: Kδ = K δ_F + ΔF, and M⁻¹ ≤ K⁻¹
-//   ‖e_c‖ / ‖F‖   contact law: e_c = F − P(F − ρ r_c) with the displacements that δ_F corrects and
-//                 ρ = 1/D_jj from above (contact_compliance.hpp); by it, in the D norm with D_jj
-//                 alone, forces are off twice (docs/theory.md, ALM's estimate). On a soft layer
-//                 next to a stiff one a point's law may be wrong and ‖e_c‖ nothing next to ‖F‖
+//   (‖δ‖_K + ‖δ_F‖_K + 2 ‖c‖_D) / √(F·M⁻¹F)   contact forces: Kδ = K δ_F + ΔF, and M⁻¹ ≤ K⁻¹;
+//                                             D by its diagonal from below
+//   ‖c‖ / ‖F‖                                 contact law, c = F − P(F − ρ r_c) with the
+//                                             displacements δ_F corrects and ρ from above
+//                                             (contact_compliance.hpp)
 //   ‖r‖_∞ / ‖forces‖_∞                        equilibrium
 //
-// with a half more on what is solved for.
+// with a half more on what is solved for. A wrong law of points on a soft layer is nothing in ‖c‖
+// next to the forces of a stiff one, but not in ‖c‖_D; the factor 2 is that of ALM's estimate
+// (docs/theory.md).
 #pragma once
 
 #include "assembly/load_scale.hpp"
