@@ -203,8 +203,10 @@ TEST(TwoBodies, APathWithSlipDissipatesAsAtAWall) {
     const std::vector<double> both = work(scene, two_blocks(10, 10)), one = work(alone, block);
     ASSERT_EQ(both.size(), 4);
     for (std::size_t k = 1; k < 4; ++k) {
-      EXPECT_GT(one[k], 0);
-      EXPECT_NEAR(both[k] / one[k], 1, 1e-4) << name << " step " << k;
+      // After to and fro HYBRID dissipates 0.1, P2 0.004 N mm: P3 sticks everywhere.
+      const bool sticks = name == std::string("P3") && k == 3;
+      EXPECT_EQ(one[k] > 1e-3, !sticks) << name;
+      EXPECT_NEAR(both[k], one[k], sticks ? 1e-12 : 1e-4 * one[k]) << name << " step " << k;
     }
   }
 }
