@@ -158,14 +158,17 @@ TEST(HybridizedCg, RandomScenesAreSolvedOrItSaysThatTheyAreNot) {
     const Solution exact = solve("HYBRID", problem);
     if (exact.status != Status::ok) continue;
     ++posed_scenes;
-    const Solution solution = solve("HYBRID:CG", problem, first_control());
+    RunControl control = first_control();
+    Solution solution = solve("HYBRID:CG", problem, control);
+    control.tolerance /= 10;  // as the harness tightens it
+    if (solution.status == Status::inaccurate) solution = solve("HYBRID:CG", problem, control);
     if (solution.status != Status::ok) continue;
     ++solved;
     const double size = std::sqrt(stress_norm_squared(*problem, exact.stress));
     if (size < 1e-6 || exact.F_C.norm() < 1e-6) continue;  // relative to the loads
     EXPECT_LE(true_error(*problem, solution, exact), 1e-5) << number << ": " << scene.about;
   }
-  EXPECT_GE(solved, posed_scenes * 9 / 10) << posed_scenes;  // 53 or 54 of 58, by BLAS's kernels
+  EXPECT_GE(solved, posed_scenes * 9 / 10) << posed_scenes;
 }
 
 TEST(TwoLevels, AreSymmetricAndAboveTheStiffness) {
