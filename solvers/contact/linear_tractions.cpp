@@ -34,7 +34,8 @@ contact::Problem in_linear_tractions(const contact::Problem& problem) {
   contact::Problem linear{.is_symmetric = problem.is_symmetric};
   linear.D = R.transpose() * (problem.D * R).eval();
   linear.G = R.transpose() * problem.G;
-  linear.points = {.count = 2 * (all.count / all.per_edge), .components = all.components};
+  linear.points.count = 2 * (all.count / all.per_edge);
+  linear.points.components = all.components;
   if (all.gap.size() > 0) linear.points.gap = R.transpose() * all.gap;
   for (int p = 0; p < all.count; p += all.per_edge)
     for (int end = 0; end < 2; ++end) {
