@@ -4,6 +4,7 @@
 
 #include "assembly/edge_forces.hpp"
 #include "tests/support/exact_fields.hpp"
+#include "tests/support/far_from_origin.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/named_scenes.hpp"
 #include "tests/support/posed.hpp"
@@ -133,14 +134,7 @@ TEST_P(EveryKindOfMethod, ReactionsAndContactForcesBalanceTheBodyForce) {
 }
 
 TEST_P(EveryKindOfMethod, ABodyFarFromTheOriginHasTheSameAnswer) {
-  Mesh moved = small_tooth(6, 5);
-  for (Eigen::Vector2d& x : moved.vertices) x += Eigen::Vector2d(1e5, -2e5);
-  Scene scene;
-  scene.crown_radius_mm.reset();
-  const Solution here = solve(posed(scene)), there = solve(posed(scene, moved));
-  ASSERT_EQ(there.status, Status::ok) << there.message;
-  // The moved coordinates themselves are rounded to 3e-11 mm.
-  EXPECT_LT(testing::distance(here.F_C, there.F_C), 1e-8 * here.F_C.norm());
+  testing::expect_the_same_far_from_the_origin([&](const auto& problem) { return solve(problem); });
 }
 
 TEST_P(EveryKindOfMethod, OutOfTimeIsATimeout) {
