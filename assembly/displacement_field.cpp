@@ -129,24 +129,26 @@ Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u,
   });
 }
 
-// ρ is linear, so a coefficient is its value at the coefficient's place.
+// The motion is linear, so a coefficient is its value at the coefficient's place.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w) {
   const int p = displacement_degree(problem, w);
   const auto& x = problem.mesh.vertices;
   const auto vertices = static_cast<Eigen::Index>(x.size());
-  for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) += problem.motion.at(x[v]);
+  for (Eigen::Index v = 0; v < vertices; ++v)
+    w.col(v) += problem.motion_at(x[v], static_cast<int>(v));
   for (int e = 0; e < problem.edges.count(); ++e) {
     const auto [a, b] = problem.edges.vertices[e];
     for (int i = 1; i < p; ++i)
       w.col(first_on_edge(problem, p, e) + i - 1) +=
-          problem.motion.at(((p - i) * x[a] + i * x[b]) / p);
+          problem.motion_at(((p - i) * x[a] + i * x[b]) / p, a);
   }
   for (int t = 0; p > 2 && t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const TriangleVertices v = problem.vertices_of(t);
     int node = first_inside(problem, p, t);
     for (int c = 1; c < p - 1; ++c)
       for (int b = 1; b < p - c; ++b)
-        w.col(node++) += problem.motion.at(v * Eigen::Vector3d(p - b - c, b, c) / p);
+        w.col(node++) += problem.motion_at(v * Eigen::Vector3d(p - b - c, b, c) / p,
+                                           problem.mesh.triangles[t][0]);
   }
   return w;
 }
@@ -233,7 +235,7 @@ std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int
     slid = elevated<p>(s.col(row));
   std::array<ContactOffset, p + 1> offsets;
   for (int i = 0; i <= p; ++i)
-    offsets[i] = {gap[i], slid[i], problem.motion.at(a + i * (b - a) / p)};
+    offsets[i] = {gap[i], slid[i], problem.motion_at(a + i * (b - a) / p, start)};
   return offsets;
 }
 

@@ -62,7 +62,7 @@ Eigen::Vector2d displacement_at(const Problem& problem, const DisplacementField&
                                 const Eigen::Vector3d& lambda);
 Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u, int row);
 
-// u = w + ρ: adds the rigid motion back.
+// u = w + ρ: adds the rigid motion back, of free pieces theirs, too.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w);
 
 // A ε(u), MPa, of degree p − 1.

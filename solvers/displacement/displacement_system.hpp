@@ -25,7 +25,7 @@
 namespace airybench {
 
 struct DisplacementSystem {
-  static constexpr int prescribed = -1;
+  static constexpr int prescribed = -1;  // or pinned (free_motions.hpp)
   int degree = 2;  // p
   ControlPoints control;
   PrescribedDisplacement given;
