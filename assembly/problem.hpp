@@ -10,7 +10,8 @@
 // The rigid motion ρ nearest to u0 is taken out: the unknown is w = u − ρ, with u0 − ρ on Γ_D; on
 // Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (ContactOffset). Energies are those of
 // w: with b or f they differ from those of u by the constant work on ρ. Pieces that contact alone
-// holds have motions of their own besides (free_motions.hpp), which enter as ρ does.
+// holds have motions of their own besides (free_motions.hpp), which enter as ρ does; energies are
+// with these.
 //
 // Every method starts from here; assembly turns it into the Airy system (dual_system.hpp).
 // Coordinates, compliances and load values are exact doubles, the data of the discrete problem;
