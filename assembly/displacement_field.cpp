@@ -134,21 +134,19 @@ DisplacementField with_motion(const Problem& problem, DisplacementField w, const
   const int p = displacement_degree(problem, w);
   const auto& x = problem.mesh.vertices;
   const auto vertices = static_cast<Eigen::Index>(x.size());
-  for (Eigen::Index v = 0; v < vertices; ++v)
-    w.col(v) += motion(x[v], static_cast<int>(v));
+  for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) += motion(x[v], static_cast<int>(v));
   for (int e = 0; e < problem.edges.count(); ++e) {
     const auto [a, b] = problem.edges.vertices[e];
     for (int i = 1; i < p; ++i)
-      w.col(first_on_edge(problem, p, e) + i - 1) +=
-          motion(((p - i) * x[a] + i * x[b]) / p, a);
+      w.col(first_on_edge(problem, p, e) + i - 1) += motion(((p - i) * x[a] + i * x[b]) / p, a);
   }
   for (int t = 0; p > 2 && t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const TriangleVertices v = problem.vertices_of(t);
     int node = first_inside(problem, p, t);
     for (int c = 1; c < p - 1; ++c)
       for (int b = 1; b < p - c; ++b)
-        w.col(node++) += motion(v * Eigen::Vector3d(p - b - c, b, c) / p,
-                                problem.mesh.triangles[t][0]);
+        w.col(node++) +=
+            motion(v * Eigen::Vector3d(p - b - c, b, c) / p, problem.mesh.triangles[t][0]);
   }
   return w;
 }

@@ -146,7 +146,7 @@ void build_constraints(DualSystem& system) {
         f +=
             edge.frame.length_mm / 2 * loads.traction_MPa(edge.end[k], edge.frame.normal, edge.row);
       for (int i = 0; i < 2; ++i)
-        if (k == 1 || !problem.free.pins_down(edge.row, i))
+        if (!problem.free.pins_down(edge.row, k, i))
           on_force.add(edge.forces.row(2 * k + i), edge.dofs, f(i));
     }
   };

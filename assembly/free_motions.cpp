@@ -44,15 +44,17 @@ std::vector<RigidMotion> motions_of(const Support& support, const Eigen::Vector2
   return {{centre, {1, 0}, 0}, {centre, {0, 1}, 0}, {centre, {0, 0}, 1 / radius}};
 }
 
-int larger_component(const Eigen::Vector2d& v) { return std::abs(v.x()) >= std::abs(v.y()) ? 0 : 1; }
+int larger_component(const Eigen::Vector2d& v) {
+  return std::abs(v.x()) >= std::abs(v.y()) ? 0 : 1;
+}
 
 // Far from each other, so that pins are no hinge: the second holds the turn about the first.
 void add_pins(const Mesh& mesh, const std::vector<int>& rows, const Support& support,
               const Eigen::Vector2d& centre, std::vector<Pin>& pins) {
   const auto start = [&](int row) { return mesh.vertices[mesh.boundary[row].vertices[0]]; };
   const auto farthest_from = [&](const Eigen::Vector2d& x) {
-    return *std::ranges::max_element(
-        rows, {}, [&](int row) { return (start(row) - x).squaredNorm(); });
+    return *std::ranges::max_element(rows, {},
+                                     [&](int row) { return (start(row) - x).squaredNorm(); });
   };
   if (rows.empty()) return;
   const int first = farthest_from(centre);
@@ -78,9 +80,10 @@ Eigen::Vector2d FreeMotions::at(const Eigen::Vector2d& x, int vertex) const {
   return sum;
 }
 
-bool FreeMotions::pins_down(int row, int component) const {
-  return std::ranges::any_of(
-      pins, [&](const Pin& pin) { return pin.row == row && pin.component == component; });
+bool FreeMotions::pins_down(int row, int end, int component) const {
+  return end == 0 && std::ranges::any_of(pins, [&](const Pin& pin) {
+           return pin.row == row && pin.component == component;
+         });
 }
 
 FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,

@@ -27,14 +27,15 @@ struct Pin {
 
 struct FreeMotions {
   std::vector<FreeMotion> motions;
-  std::vector<Pin> pins;            // as many; fewer: a piece has no place for them
+  std::vector<Pin> pins;             // as many; fewer: a piece has no place for them
   std::vector<int> piece_of_vertex;  // empty where there is no motion
   Eigen::VectorXd amounts_mm;        // a; empty: not known
 
   bool are_unknown() const { return !motions.empty() && amounts_mm.size() == 0; }
   // Of the piece that this vertex belongs to; without amounts zero.
   Eigen::Vector2d at(const Eigen::Vector2d& x, int vertex) const;
-  bool pins_down(int row, int component) const;
+  // At an end of a boundary edge, from its start on.
+  bool pins_down(int row, int end, int component) const;
 };
 
 // Of pieces with contact edges: all three, or the one that parallel rollers leave. rollers: per row

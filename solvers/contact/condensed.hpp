@@ -12,7 +12,7 @@
 namespace airybench {
 
 struct ContactResult {
-  Eigen::VectorXd F_C;  // N
+  Eigen::VectorXd F_C;             // N
   Eigen::VectorXd free_motion_mm;  // a of ContactPoints::free; empty: there is none
   // By ContactOptions::tolerance, or by ContactOptions::acceptable where it ended.
   bool converged = false;

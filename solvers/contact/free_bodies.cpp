@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -47,7 +48,7 @@ struct Unbalanced {
 ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
                                      const Deadline& deadline) {
   constexpr int most_steps = 16;
-  constexpr double balanced = 1e-13, still_balanced = 1e-9, rough = 1e-8;
+  constexpr double balanced = 1e-13, nearly_balanced = 1e-11, still_balanced = 1e-9, rough = 1e-8;
   if (!problem.is_dense()) throw std::invalid_argument("free bodies with a sparse D");
   const FreeBodies& free = problem.points.free;
   const Eigen::MatrixXd& N = free.motions;
@@ -55,30 +56,33 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
   held.points.free = {};
   ContactOptions from_here = options;
   ContactResult result;
-  const auto solve_held = [&] {
+  Eigen::VectorXd a = Eigen::VectorXd::Zero(N.cols());
+  const auto solve_held = [&](double m) {
+    held.D = problem.D + m * N * N.transpose();
+    held.G = problem.G - N * (a + m * free.loads_N);
     ContactResult next = solve_contact(held, from_here, deadline);
     next.iterations += result.iterations;
     next.active_set_steps += result.active_set_steps;
     next.history.insert(next.history.begin(), result.history.begin(), result.history.end());
     result = std::move(next);
-    if (result.F_C.allFinite()) from_here.start = result.F_C;
-    return Unbalanced(free, result.F_C);
-  };
-  Eigen::VectorXd a = Eigen::VectorXd::Zero(N.cols());
-  from_here.acceptable = std::max(options.acceptable, rough);  // the last solve makes up for it
-  double m = problem.D.diagonal().mean() / N.rowwise().squaredNorm().mean();
-  for (int step = 0; step < most_steps; ++step, m *= 10) {
-    held.D = problem.D + m * N * N.transpose();
-    held.G = problem.G - N * (a + m * free.loads_N);
-    const Unbalanced left = solve_held();
-    if (!result.F_C.allFinite()) return result;
+    from_here.start = result.F_C;
+    Unbalanced left(free, result.F_C);
     a += m * left.loads;
-    if (!(left.relative > balanced)) break;
+    return left;
+  };
+  const double least = problem.D.diagonal().mean() / N.rowwise().squaredNorm().mean();
+  double m = least, before = std::numeric_limits<double>::infinity();
+  from_here.acceptable = std::max(options.acceptable, rough);  // the last solve makes up for it
+  for (int step = 0; step < most_steps; ++step, m *= 10) {
+    const double left = solve_held(m).relative;
+    if (!result.F_C.allFinite()) return result;
+    if (left <= balanced || (left <= nearly_balanced && left > before / 2)) break;
+    before = left;
   }
-  held.D = problem.D;
-  held.G = problem.G - N * a;
+  // m N Nᵀ has cost digits of D: firmer springs take the error out of a that this has left.
+  for (; m > least; m /= 100) solve_held(m);
   from_here.acceptable = options.acceptable;
-  if (const Unbalanced left = solve_held(); !(left.relative <= still_balanced))
+  if (const Unbalanced left = solve_held(0); !(left.relative <= still_balanced))
     throw_not_held(free, left);
   result.free_motion_mm = std::move(a);
   return result;

@@ -73,14 +73,16 @@ struct Dense {
     Solution result = unjudged(answer, F_C);
     RunControl control;
     control.target_error = target;
-    check_airy_answer(system, {.D = own_D, .points = system.contact}, own_solve, answer, control, result);
+    check_airy_answer(system, {.D = own_D, .points = system.contact}, own_solve, answer, control,
+                      result);
     return result;
   }
   // What refinement with this solve makes of an answer.
   Solution refined(const MatrixXd& own_D, const SaddleSolve& own_solve, const SaddleVector& answer,
                    const VectorXd& F_C) const {
     Solution result = unjudged(answer, F_C);
-    refine_airy_answer(system, {.D = own_D, .points = system.contact}, own_solve, answer, {}, result);
+    refine_airy_answer(system, {.D = own_D, .points = system.contact}, own_solve, answer, {},
+                       result);
     return result;
   }
   double energy_norm(const VectorXd& x) const {
