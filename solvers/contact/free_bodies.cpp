@@ -48,7 +48,8 @@ struct Unbalanced {
 ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
                                      const Deadline& deadline) {
   constexpr int most_steps = 16;
-  constexpr double balanced = 1e-13, nearly_balanced = 1e-11, still_balanced = 1e-9, rough = 1e-8;
+  constexpr double balanced = 1e-13, nearly_balanced = 1e-11, rough = 1e-8;  // of relative
+  constexpr double enough = 1e-9, not_held = 1e-6;                           // at the end
   if (!problem.is_dense()) throw std::invalid_argument("free bodies with a sparse D");
   const FreeBodies& free = problem.points.free;
   const Eigen::MatrixXd& N = free.motions;
@@ -82,8 +83,9 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
   // m N Nᵀ has cost digits of D: firmer springs take the error out of a that this has left.
   for (; m > least; m /= 100) solve_held(m);
   from_here.acceptable = options.acceptable;
-  if (const Unbalanced left = solve_held(0); !(left.relative <= still_balanced))
-    throw_not_held(free, left);
+  const Unbalanced left = solve_held(0);
+  if (left.relative > not_held) throw_not_held(free, left);
+  result.converged &= left.relative <= enough;
   result.free_motion_mm = std::move(a);
   return result;
 }
