@@ -18,16 +18,21 @@ using Solved = testing::SolvedScene;
 
 LinearValue<Vector2d> everywhere(const Vector2d& value) { return {{value, value}}; }
 
-// A disc of so many sectors and rings around a fan; its rim below and above is contact.
+// A disc of so many sectors, narrower below and above, and rings around a fan; there its rim is
+// contact.
 void add_disc(Mesh& mesh, const std::string& body, const Vector2d& centre, double radius_mm,
               int around, int rings) {
   const int middle = static_cast<int>(mesh.vertices.size());
+  const auto angle = [&](double i) {
+    const double even = 2 * std::numbers::pi * i / around;
+    return even + 0.4 * std::sin(2 * even);
+  };
   const auto vertex = [&](int i, int j) { return middle + 1 + (i % around) * rings + j; };
   mesh.vertices.push_back(centre);
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < rings; ++j) {
-      const double angle = 2 * std::numbers::pi * i / around, r = radius_mm * (j + 1) / rings;
-      mesh.vertices.push_back(centre + r * Vector2d(std::cos(angle), std::sin(angle)));
+      const double r = radius_mm * (j + 1) / rings;
+      mesh.vertices.push_back(centre + r * Vector2d(std::cos(angle(i)), std::sin(angle(i))));
     }
   for (int i = 0; i < around; ++i) {
     mesh.triangles.push_back({middle, vertex(i, 0), vertex(i + 1, 0)});
@@ -35,24 +40,24 @@ void add_disc(Mesh& mesh, const std::string& body, const Vector2d& centre, doubl
       mesh.triangles.push_back({vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
       mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i + 1, j)});
     }
-    const double height = std::sin(2 * std::numbers::pi * (i + 0.5) / around);
+    const double height = std::sin(angle(i + 0.5));
     testing::add_edge(mesh, vertex(i, rings - 1), vertex(i + 1, rings - 1),
-                      height < -0.9  ? "contact:" + body + "_below"
-                      : height > 0.9 ? "contact:" + body + "_above"
+                      height < -0.95 ? "contact:" + body + "_below"
+                      : height > 0.95? "contact:" + body + "_above"
                                      : "force");
   }
   testing::name_body(mesh, body);
 }
 
-constexpr double radius = 6;
+constexpr double radius = 6, down = -0.2;
 
 Mesh roller_between_plates() {
   Mesh mesh;
   mesh.name = "roller";
-  add_block(mesh, "floor", {-8, -5}, {8, 0}, 20, 5,
+  add_block(mesh, "floor", {-8, -5}, {8, 0}, 13, 4,
             {"displacement:floor", "force", "contact:floor", "force"});
-  add_disc(mesh, "roller", {0, radius}, radius, 80, 8);
-  add_block(mesh, "plate", {-8, 2 * radius}, {8, 2 * radius + 4}, 23, 5,
+  add_disc(mesh, "roller", {0, radius}, radius, 48, 7);
+  add_block(mesh, "plate", {-8, 2 * radius}, {8, 2 * radius + 4}, 16, 4,
             {"contact:plate", "force", "displacement:plate", "force"});
   return mesh;
 }
@@ -124,23 +129,26 @@ void expect_methods_agree(const Scene& scene, const Mesh& mesh) {
     const WorstMeasure worst = worst_measure(verify(other.system, other.solution, &reference));
     EXPECT_LT(worst.value, 1e-6) << name << ": " << worst.name;
   }
+  double pressed = 0;  // by stresses of degree 3
   for (const int degree : {2, 3}) {
     const Solved higher(scene, mesh, hybrid_of_degree(degree));
     const Reference own = compute_reference(higher.system);
-    const WorstMeasure worst = worst_measure(verify(higher.system, higher.solution, &own));
-    EXPECT_LT(worst.value, 1e-8) << "degree " << degree << ": " << worst.name;
+    const Verification seen = verify(higher.system, higher.solution, &own);
+    EXPECT_LT(worst_measure(seen).value, 1e-8)
+        << "degree " << degree << ": " << worst_measure(seen).name;
+    pressed = *seen.normal_resultant_N;
   }
   for (const char* name : {"P2", "P3", "P4"}) {
     const Solved own(scene, mesh, name);
-    const WorstMeasure worst = worst_measure(verify_displacement(own.system, own.solution));
-    EXPECT_LT(worst.value, 1e-8) << name << ": " << worst.name;
-    EXPECT_NEAR(own.energy() / hybrid.energy(), 1, 0.03) << name;
+    const Verification seen = verify_displacement(own.system, own.solution);
+    EXPECT_LT(worst_measure(seen).value, 1e-8) << name << ": " << worst_measure(seen).name;
+    EXPECT_NEAR(*seen.normal_resultant_N / pressed, 1, 0.03) << name;
   }
 }
 
 TEST(FreeBodies, AllMethodsAgreeOnARoller) {
   for (const double friction : {0., 0.3})
-    expect_methods_agree(pressed_roller(friction, {0, -0.01}), roller_between_plates());
+    expect_methods_agree(pressed_roller(friction, {0, down}), roller_between_plates());
 }
 
 TEST(FreeBodies, AllMethodsAgreeOnAPile) {
@@ -182,7 +190,7 @@ TEST(FreeBodies, WherePinsAreDoesNotMatter) {
 
 // The reference finds the motion by itself, and has no unbalanced force.
 TEST(FreeBodies, TheReferenceFindsTheMotion) {
-  const auto problem = testing::posed(pressed_roller(0.3, {0.004, -0.01}), roller_between_plates());
+  const auto problem = testing::posed(pressed_roller(0.3, {0.08, down}), roller_between_plates());
   DualSystem system = assemble(problem, Blocks::contact_points);
   const Reference reference = compute_reference(system);
   EXPECT_LT(reference.error_estimate, 1e-12);
@@ -210,8 +218,8 @@ TEST(FreeBodies, EachFaceCarriesWhatLiesAboveIt) {
 // It is pressed in the middle of both, and rolls by half of what the plate moves.
 TEST(FreeBodies, ARollerRollsBetweenItsPlates) {
   for (const char* name : {"HYBRID:k=2", "P3"}) {
-    const Solved pressed(pressed_roller(0.3, {0, -0.01}), roller_between_plates(), name),
-        rolled(pressed_roller(0.3, {0.002, -0.01}), roller_between_plates(), name);
+    const Solved pressed(pressed_roller(0.3, {0, down}), roller_between_plates(), name),
+        rolled(pressed_roller(0.3, {0.04, down}), roller_between_plates(), name);
     const auto centre = [](const Solved& solved) {
       const Problem& problem = solved.problem();
       const Mesh& mesh = problem.mesh;
@@ -223,9 +231,10 @@ TEST(FreeBodies, ARollerRollsBetweenItsPlates) {
                                        solved.solution.edge_moments);
       return Vector2d(with_rigid_motion(problem, w).col(v));
     };
-    EXPECT_NEAR(centre(pressed).x(), 0, 1e-4) << name;
-    EXPECT_NEAR(centre(rolled).x() - centre(pressed).x(), 0.001, 1e-4) << name;
-    EXPECT_LT(centre(rolled).y(), -0.002) << name;
+    EXPECT_NEAR(centre(pressed).x(), 0, 2e-3) << name;
+    EXPECT_NEAR(centre(rolled).x() - centre(pressed).x(), 0.02, 1e-3) << name;
+    EXPECT_NEAR(centre(rolled).y(), centre(pressed).y(), 2e-3) << name;
+    EXPECT_LT(centre(rolled).y(), -0.08) << name;
   }
 }
 
@@ -295,10 +304,10 @@ TEST(FreeBodies, WhatNothingHoldsIsNamedWithItsDirection) {
 }
 
 TEST(FreeBodies, APathIsWalkedInSteps) {
-  Scene scene = pressed_roller(0.3, {0, -0.01});
-  for (const double x : {0.003, -0.003}) {
+  Scene scene = pressed_roller(0.3, {0, down});
+  for (const double x : {0.06, -0.06}) {
     LoadStep step;
-    step.boundary["displacement:plate"].displacement_mm = everywhere({x, -0.01});
+    step.boundary["displacement:plate"].displacement_mm = everywhere({x, down});
     scene.later_steps.push_back(step);
   }
   const auto problem = testing::posed(scene, roller_between_plates());
