@@ -72,15 +72,15 @@ void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
                            " (its groups: " + valid + ")");
 }
 
-// Refuses rollers of a piece that are all parallel: an edge holds the rotation and one translation
-// only.
+// Refuses rollers of a piece that are all parallel, as an edge holds the rotation and one
+// translation only, where no contact edge may hold it.
 void check_held(const Mesh& mesh, const std::vector<bool>& rollers, const MeshPieces& pieces,
                 int piece) {
   std::optional<Eigen::Vector2d> along;  // direction that the rollers so far leave free
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
-    if (mesh.boundary[row].role != BoundaryRole::displacement) continue;
     const auto [a, b] = mesh.boundary[row].vertices;
-    if (pieces.of_vertex[a] != piece) continue;
+    if (pieces.of_vertex[a] != piece || mesh.boundary[row].role == BoundaryRole::force) continue;
+    if (mesh.boundary[row].role == BoundaryRole::contact) return;
     if (!rollers[row]) return;
     const EdgeFrame frame = edge_frame(mesh.vertices[a], mesh.vertices[b]);
     if (!along) along = frame.tangent;
@@ -92,7 +92,7 @@ void check_held(const Mesh& mesh, const std::vector<bool>& rollers, const MeshPi
   const auto tidy = [](double x) { return std::abs(x) < straight_roller ? 0 : x; };
   throw TransformError("support: normal leaves the body free to move along " +
                        shown(Eigen::Vector2d(along->unaryExpr(tidy))) +
-                       " (allowed: supports that hold it; contact does not count)");
+                       " (allowed: supports that hold it, or contact edges)");
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ using BoundaryConditions = std::map<std::string, BoundaryValues>;
 void check_values(const BoundaryConditions& conditions);
 
 // Sets u0, f and rollers of `loads`. displacement_mm: for displacement edges without a value.
-// Refuses groups that the mesh lacks, and supports that leave a rigid motion free (contact may
-// open, so it does not count).
+// Refuses groups that the mesh lacks, and supports of a piece without contact edges that leave a
+// rigid motion free.
 void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displacement_mm,
            const Mesh& mesh, Loads& loads);
 

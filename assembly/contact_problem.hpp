@@ -8,6 +8,11 @@
 //
 // Where two bodies press on each other both have a point, in opposite frames. F is then the same at
 // both, and r the sum of both (paired_points.hpp).
+//
+// Bodies that contact alone holds move by unknown amounts a of their rigid motions N, and are in
+// equilibrium with the loads l on these:
+//
+//   r = D F − G − ḡ + N a,   Nᵀ F + l = 0
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -20,6 +25,14 @@ namespace airybench {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+struct FreeBodies {
+  Eigen::MatrixXd motions;             // N, n_c × count, in the rows of F_C; no columns: none
+  Eigen::VectorXd loads_N;             // l
+  std::vector<std::string> bodies;     // per motion, for messages
+  std::vector<Eigen::Vector2d> along;  // of translations; zero: a turn
+  bool is_empty() const { return motions.cols() == 0; }
+};
+
 struct ContactPoints {
   int count = 0;  // for a body `per_edge` on each contact edge, from its start on
   int per_edge = 2;
@@ -31,6 +44,7 @@ struct ContactPoints {
   // Per point: the other body's point that it presses on; no_point: a wall. Empty: walls only.
   static constexpr int no_point = -1;
   std::vector<int> opposite;
+  FreeBodies free;
   int opposite_of(int point) const {
     return opposite.empty() ? no_point : opposite[static_cast<std::size_t>(point)];
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "assembly/edge_forces.hpp"
+#include "assembly/free_bodies.hpp"
 
 namespace airybench {
 namespace {
@@ -44,6 +45,16 @@ void pair_points(const Problem& problem, const PrescribedDisplacement& prescribe
       }
     }
   }
+}
+
+template <int p>
+Eigen::Vector2d place_of_node(const Problem& problem, const ControlPoints& points, int point) {
+  const int row = points.law.boundary[point];
+  const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+  const auto i = std::ranges::find(nodes, points.node[point]) - nodes.begin();
+  const auto [start, end] = problem.mesh.boundary[row].vertices;
+  const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+  return a + static_cast<double>(i) / p * (b - a);
 }
 
 template <int p>
@@ -105,6 +116,12 @@ ControlPoints control_points(const Problem& problem) {
     for (int i = 0; i < points.law.count; ++i)
       points.law.gap.segment(m * i, m) = offset[i].along(points.normal[i]).head(m);
   }
+  add_free_bodies(
+      problem,
+      [&](const RigidMotion& motion, int i) -> Eigen::Vector2d {
+        return points.frame(i).transpose() * motion.at(place_of_node<p>(problem, points, i));
+      },
+      points.law);
   return points;
 }
 

@@ -129,26 +129,32 @@ Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u,
   });
 }
 
-// ρ is linear, so a coefficient is its value at the coefficient's place.
-DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w) {
+// A coefficient is the motion's value at the coefficient's place.
+DisplacementField with_motion(const Problem& problem, DisplacementField w, const Motion& motion) {
   const int p = displacement_degree(problem, w);
   const auto& x = problem.mesh.vertices;
   const auto vertices = static_cast<Eigen::Index>(x.size());
-  for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) += problem.motion.at(x[v]);
+  for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) += motion(x[v], static_cast<int>(v));
   for (int e = 0; e < problem.edges.count(); ++e) {
     const auto [a, b] = problem.edges.vertices[e];
     for (int i = 1; i < p; ++i)
-      w.col(first_on_edge(problem, p, e) + i - 1) +=
-          problem.motion.at(((p - i) * x[a] + i * x[b]) / p);
+      w.col(first_on_edge(problem, p, e) + i - 1) += motion(((p - i) * x[a] + i * x[b]) / p, a);
   }
   for (int t = 0; p > 2 && t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const TriangleVertices v = problem.vertices_of(t);
     int node = first_inside(problem, p, t);
     for (int c = 1; c < p - 1; ++c)
       for (int b = 1; b < p - c; ++b)
-        w.col(node++) += problem.motion.at(v * Eigen::Vector3d(p - b - c, b, c) / p);
+        w.col(node++) +=
+            motion(v * Eigen::Vector3d(p - b - c, b, c) / p, problem.mesh.triangles[t][0]);
   }
   return w;
+}
+
+DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w) {
+  return with_motion(problem, std::move(w), [&](const Eigen::Vector2d& x, int vertex) {
+    return problem.motion_at(x, vertex);
+  });
 }
 
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {
@@ -233,7 +239,7 @@ std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int
     slid = elevated<p>(s.col(row));
   std::array<ContactOffset, p + 1> offsets;
   for (int i = 0; i <= p; ++i)
-    offsets[i] = {gap[i], slid[i], problem.motion.at(a + i * (b - a) / p)};
+    offsets[i] = {gap[i], slid[i], problem.motion_at(a + i * (b - a) / p, start)};
   return offsets;
 }
 
@@ -275,6 +281,13 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem, int degre
 double work_of_loads(const Problem& problem, const DisplacementField& u) {
   if (!problem.loads.has_body_force() && !problem.loads.traction_MPa) return 0;
   return nodal_loads(problem, displacement_degree(problem, u)).cwiseProduct(u).sum();
+}
+
+double work_on_free_motion(const Problem& problem) {
+  if (problem.free.amounts_mm.size() == 0) return 0;
+  return work_of_loads(
+      problem, with_motion(problem, DisplacementField::Zero(2, displacement_nodes(problem)),
+                           [&](const Eigen::Vector2d& x, int v) { return problem.free.at(x, v); }));
 }
 
 #define AIRYBENCH_INSTANTIATE(k)                                                                 \

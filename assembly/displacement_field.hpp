@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <map>
 
 #include "assembly/displacement_triangle.hpp"
@@ -62,7 +63,10 @@ Eigen::Vector2d displacement_at(const Problem& problem, const DisplacementField&
                                 const Eigen::Vector3d& lambda);
 Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u, int row);
 
-// u = w + ρ: adds the rigid motion back.
+// Adds a linear displacement, at x on the piece that a vertex belongs to.
+using Motion = std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int vertex)>;
+DisplacementField with_motion(const Problem& problem, DisplacementField w, const Motion& motion);
+// u = w + ρ: adds the rigid motion back, of free pieces theirs, too.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w);
 
 // A ε(u), MPa, of degree p − 1.
@@ -90,5 +94,7 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem, int degre
 
 // ∫ b·u + ∫_{Γ_F} f·u, N mm.
 double work_of_loads(const Problem& problem, const DisplacementField& u);
+// The same of free pieces' own motions, zero where there are none.
+double work_on_free_motion(const Problem& problem);
 
 }  // namespace airybench

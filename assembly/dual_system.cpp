@@ -3,6 +3,7 @@
 #include "assembly/displacement_field.hpp"
 #include "assembly/edge_forces.hpp"
 #include "assembly/flexibility.hpp"
+#include "assembly/free_bodies.hpp"
 #include "assembly/row_order.hpp"
 #include "assembly/sparse_bytes.hpp"
 #include "assembly/stress_field.hpp"
@@ -96,6 +97,17 @@ void add_contact_points(const Problem& problem, int row, ContactPoints& contact,
   }
 }
 
+// The moment ū_j of a motion.
+template <int k>
+Eigen::Vector2d moment_in_frame(const Problem& problem, int row, int j, const RigidMotion& motion) {
+  const auto [start, end] = problem.mesh.boundary[row].vertices;
+  const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+  const Eigen::Vector2d moment =
+      moment_of(k, j, std::array<Eigen::Vector2d, 2>{motion.at(a), motion.at(b)});
+  const EdgeFrame frame = problem.frame_of_moment(row, k, j);
+  return {frame.normal.dot(moment), frame.tangent.dot(moment)};
+}
+
 }  // namespace
 
 ContactPoints contact_points(const Problem& problem, int degree) {
@@ -109,6 +121,14 @@ ContactPoints contact_points(const Problem& problem, int degree) {
   contact.count = static_cast<int>(contact.boundary.size());
   if (!problem.opposite.empty()) pair_points(problem, contact);
   contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
+  add_free_bodies(
+      problem,
+      [&](const RigidMotion& motion, int p) {
+        return with_degree(degree, [&](auto k) -> Eigen::Vector2d {
+          return moment_in_frame<k>(problem, contact.boundary[p], p % contact.per_edge, motion);
+        });
+      },
+      contact);
   return contact;
 }
 
@@ -125,7 +145,9 @@ void build_constraints(DualSystem& system) {
       if (loads.traction_MPa)
         f +=
             edge.frame.length_mm / 2 * loads.traction_MPa(edge.end[k], edge.frame.normal, edge.row);
-      for (int i = 0; i < 2; ++i) on_force.add(edge.forces.row(2 * k + i), edge.dofs, f(i));
+      for (int i = 0; i < 2; ++i)
+        if (!problem.free.pins_down(edge.row, k, i))
+          on_force.add(edge.forces.row(2 * k + i), edge.dofs, f(i));
     }
   };
   const auto add_in_frame = [&](const EdgeFunctionals& edge) {

@@ -16,7 +16,7 @@
 //
 // Blocks that a scene does not need are not built: an empty vector is zero. Without friction the
 // tangential contact forces are prescribed as zero; their rows follow those of Γ_F in C_F. The
-// tangential forces on rollers, also zero, come last.
+// tangential forces on rollers, also zero, come last. At a pin (free_motions.hpp) C_F has no row.
 #pragma once
 
 #include <Eigen/SparseCore>

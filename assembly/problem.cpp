@@ -16,8 +16,7 @@ void take_out_rigid_motion(Problem& problem) {
   problem.loads.displacement_mm = std::move(split.rest_mm);
 }
 
-std::vector<int> central_vertices(const Problem& problem) {
-  const MeshPieces pieces = pieces_of(problem.mesh);
+std::vector<int> central_vertices(const Problem& problem, const MeshPieces& pieces) {
   const auto count = static_cast<std::size_t>(pieces.count);
   std::vector<Eigen::Vector2d> moment(count, Eigen::Vector2d::Zero());
   std::vector<double> area(count, 0), nearest(count, std::numeric_limits<double>::infinity());
@@ -61,7 +60,7 @@ EdgeSigns Problem::edge_signs(int triangle) const {
 }
 
 ContactOffset Problem::offset_at(const Eigen::Vector2d& x, int boundary_row) const {
-  ContactOffset offset{.motion_mm = motion.at(x)};
+  ContactOffset offset{.motion_mm = motion_at(x, mesh.boundary[boundary_row].vertices[0])};
   if (loads.gap_mm) offset.gap_mm = loads.gap_mm(x, boundary_row);
   return offset;
 }
@@ -139,7 +138,9 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
   problem.edges = number_edges(problem.mesh);
   take_out_rigid_motion(problem);
 
-  problem.central_vertices = central_vertices(problem);
+  const MeshPieces pieces = pieces_of(problem.mesh);
+  problem.free = free_motions(problem.mesh, problem.loads.rollers, pieces);
+  problem.central_vertices = central_vertices(problem, pieces);
   return problem;
 }
 
@@ -158,13 +159,20 @@ Problem with_loads(const Problem& problem, Loads loads) {
                  .edges = problem.edges,
                  .compliance = problem.compliance,
                  .loads = std::move(loads),
+                 .free = problem.free,
                  .friction = problem.friction,
                  .contact_normals = problem.contact_normals,
                  .opposite = problem.opposite,
                  .matching = problem.matching,
                  .central_vertices = problem.central_vertices};
+  result.free.amounts_mm.resize(0);
   take_out_rigid_motion(result);
   return result;
+}
+
+Problem with_free_motion(Problem problem, Eigen::VectorXd amounts_mm) {
+  problem.free.amounts_mm = std::move(amounts_mm);
+  return problem;
 }
 
 }  // namespace airybench

@@ -9,7 +9,9 @@
 //
 // The rigid motion ρ nearest to u0 is taken out: the unknown is w = u − ρ, with u0 − ρ on Γ_D; on
 // Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (ContactOffset). Energies are those of
-// w: with b or f they differ from those of u by the constant work on ρ.
+// w: with b or f they differ from those of u by the constant work on ρ. Pieces that contact alone
+// holds have motions of their own besides (free_motions.hpp), which enter as ρ does; energies are
+// with these.
 //
 // Every method starts from here; assembly turns it into the Airy system (dual_system.hpp).
 // Coordinates, compliances and load values are exact doubles, the data of the discrete problem;
@@ -24,6 +26,7 @@
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/elasticity.hpp"
+#include "assembly/free_motions.hpp"
 #include "assembly/hct.hpp"
 #include "assembly/rigid_motion.hpp"
 #include "assembly/stress_degrees.hpp"
@@ -84,7 +87,7 @@ inline constexpr double straight_roller = 1e-6;
 struct ContactOffset {
   double gap_mm = 0;                   // g0
   double slid_mm = 0;                  // s0: u_t from which slip is measured
-  Eigen::Vector2d motion_mm = {0, 0};  // ρ
+  Eigen::Vector2d motion_mm = {0, 0};  // ρ, and a free piece's own
 
   // For w, along an outward normal and, without slip, its tangent: (g0 − ρ_n, s0 − ρ_t).
   Eigen::Vector2d along(const Eigen::Vector2d& n) const {
@@ -104,6 +107,7 @@ struct Problem {
   std::vector<Eigen::Matrix3d> compliance;  // per row of mesh.body_names, 1/MPa
   Loads loads;                              // without the rigid motion
   RigidMotion motion = {};                  // ρ
+  FreeMotions free = {};
   std::vector<double> friction = {};  // μ ≥ 0 per row of Mesh::boundary, 0 off Γ_C; empty: none
   std::vector<ContactNormals> contact_normals = {};  // per row; empty: the edges' own
   // Per row: the contact edge of another body that it presses on, walked the other way; none: a
@@ -138,7 +142,14 @@ struct Problem {
   int opposite_of(int boundary_row) const {
     return opposite.empty() ? no_row : opposite[static_cast<std::size_t>(boundary_row)];
   }
-  bool has_gap() const { return loads.gap_mm || loads.slid_mm.size() > 0 || !motion.is_zero(); }
+  bool has_gap() const {
+    return loads.gap_mm || loads.slid_mm.size() > 0 || !motion.is_zero() ||
+           free.amounts_mm.size() > 0;
+  }
+  // ρ and a free piece's own motion, at x on the piece that a vertex belongs to.
+  Eigen::Vector2d motion_at(const Eigen::Vector2d& x, int vertex) const {
+    return motion.at(x) + free.at(x, vertex);
+  }
   WallDetail wall_detail_at(int boundary_row) const {
     return loads.wall_detail.empty() ? WallDetail{}
                                      : loads.wall_detail[static_cast<std::size_t>(boundary_row)];
@@ -197,8 +208,10 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
                      double friction);
 // For a problem with the whole u0.
 SplitDisplacement split_rigid_motion(const Problem& problem);
-// The same body under other loads with the whole u0; without later steps.
+// The same body under other loads with the whole u0; without later steps and known free motions.
 Problem with_loads(const Problem& problem, Loads loads);
+// Free pieces moved by these amounts.
+Problem with_free_motion(Problem problem, Eigen::VectorXd amounts_mm);
 
 // Traction σn of a stress (xx, yy, xy).
 template <typename Scalar = double>

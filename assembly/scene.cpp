@@ -96,7 +96,7 @@ void check_geometry(const Scene& scene, const Mesh& mesh, const std::vector<Face
                root_half_height(mesh, face), mesh);
 }
 
-// Every piece must be held, and contact with others must join all.
+// Contact must join all pieces.
 void check_pieces(const Scene& scene, const ReachableContact& contact) {
   const Mesh& mesh = contact.mesh;
   const MeshPieces pieces = pieces_of(mesh);
@@ -104,32 +104,39 @@ void check_pieces(const Scene& scene, const ReachableContact& contact) {
   const auto piece_of = [&](std::size_t row) {
     return pieces.of_vertex[mesh.boundary[row].vertices[0]];
   };
-  std::vector<bool> joined(static_cast<std::size_t>(pieces.count), false), held = joined;
+  std::vector<bool> joined(static_cast<std::size_t>(pieces.count), false);
   joined[0] = true;
   for (bool grows = true; grows;) {
     grows = false;
     for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
-      held[piece_of(row)] =
-          held[piece_of(row)] || mesh.boundary[row].role == BoundaryRole::displacement;
       if (!contact.matched[row] || !joined[piece_of(row)]) continue;
       auto other = joined[piece_of(static_cast<std::size_t>(contact.matched[row]->opposite))];
       grows |= !other;
       other = true;
     }
   }
-  const auto at = [&](const std::vector<bool>& lacking) {
-    const auto piece = std::ranges::find(lacking, false) - lacking.begin();
-    const auto v = std::ranges::find(pieces.of_vertex, piece) - pieces.of_vertex.begin();
-    return "the piece at the vertex " + shown(mesh.vertices[static_cast<std::size_t>(v)]);
+  const auto alone = std::ranges::find(joined, false);
+  if (alone == joined.end()) return;
+  const auto v = std::ranges::find(pieces.of_vertex, alone - joined.begin());
+  const Eigen::Vector2d& at = mesh.vertices[static_cast<std::size_t>(v - pieces.of_vertex.begin())];
+  fail(scene, "mesh " + mesh.name,
+       std::to_string(pieces.count) + " separate pieces, the piece at the vertex " + shown(at),
+       "presses on no other (allowed: one piece, or pieces that contacts join; in Gmsh, "
+       "Coherence or BooleanFragments joins surfaces that touch)");
+}
+
+// Pins need force edges (free_motions.hpp).
+void check_pins(const Scene& scene, const Problem& problem) {
+  const auto& [motions, pins, piece_of_vertex, amounts] = problem.free;
+  const auto piece_of = [&](const Pin& pin) {
+    return problem.free.piece_of_vertex[problem.mesh.boundary[pin.row].vertices[0]];
   };
-  const std::string count = std::to_string(pieces.count) + " separate pieces, ";
-  if (std::ranges::count(joined, false) > 0)
-    fail(scene, "mesh " + mesh.name, count + at(joined),
-         "presses on no other (allowed: one piece, or pieces that contacts join; in Gmsh, "
-         "Coherence or BooleanFragments joins surfaces that touch)");
-  if (std::ranges::count(held, false) > 0)
-    fail(scene, "mesh " + mesh.name, count + at(held),
-         "is held by contact alone (allowed: displacement edges on every piece)");
+  for (const FreeMotion& motion : motions)
+    if (std::ranges::count(pins, motion.piece, piece_of) == 0)
+      fail(scene, "mesh " + problem.mesh.name,
+           name_of_piece(problem.mesh, piece_of_vertex, motion.piece),
+           "is held by contact alone and has no force edges away from it (allowed: two of them, or "
+           "displacement edges)");
 }
 
 // Displacement methods have one direction at a node: along the roller, and of the contact law.
@@ -362,6 +369,7 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   problem.opposite = std::move(opposite);
   problem.matching = contact.changes;
   check_rollers_at_pairs(scene, problem);
+  check_pins(scene, problem);
   problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),
                              std::make_move_iterator(steps.end()));
   return problem;

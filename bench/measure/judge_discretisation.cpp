@@ -65,14 +65,19 @@ std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const Dua
 // Each step's system measures slip from the stresses' own past.
 std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, int degree) {
   const ActivityScope scope(board_, Activity::discretisation);
-  std::vector<DisplacementField> own_u;
+  struct OwnDisplacement {
+    DisplacementField u;
+    Eigen::VectorXd free_motion_mm;
+  };
+  std::vector<OwnDisplacement> own_u;
   Method method = select_methods(options_.adapt_by).front();
   if (method.degree != degree) method = select_methods(hybrid_of_degree(degree)).front();
   Solve solve = method.solve;
   if (bound == Bound::displacement) {
     solve_load_steps(select_methods(displacements_of_degree(degree + 1)).front(), problem_, {},
                      [&](int, const DualSystem&, const Solution& answer) {
-                       if (answer.status == Status::ok) own_u.push_back(answer.displacement);
+                       if (answer.status == Status::ok)
+                         own_u.push_back({answer.displacement, answer.free_motion_mm});
                      });
     if (std::ssize(own_u) < count_of_steps(*problem_)) return {};
     solve = [this, degree, step = 0](const DualSystem&, const RunControl&) mutable {
@@ -85,8 +90,12 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   solve_load_steps(solve, system, {}, [&](int step, const DualSystem& posed, const Solution& own) {
     if (own.status != Status::ok) return;
     if (bound == Bound::displacement) {
-      std::tie(result.error, result.u) =
-          error_of_displacements(posed, own, own_u[static_cast<std::size_t>(step)]);
+      const auto& [u, free_motion_mm] = own_u[static_cast<std::size_t>(step)];
+      DualSystem of_u = posed;
+      if (free_motion_mm.size() > 0)
+        set_load_case(of_u, std::make_shared<const Problem>(
+                                with_free_motion(*posed.problem, free_motion_mm)));
+      std::tie(result.error, result.u) = error_of_displacements(of_u, own, u);
     } else {
       result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
       result.error = constitutive_error(posed, own.stress, own.F_C, result.u);

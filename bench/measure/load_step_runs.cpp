@@ -65,6 +65,7 @@ Solution answer_of(const Reference& reference) {
   answer.status = Status::ok;
   answer.message.clear();
   answer.F_C = reference.F_C;
+  answer.free_motion_mm = reference.free_motion_mm;
   answer.stress = reference.stress;
   if (reference.F_C.size() > 0)
     answer.contact_displacement =
@@ -100,7 +101,7 @@ ReferencePath references_along(const std::shared_ptr<const Problem>& first, int 
 Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& control,
                     const VisitStep& visit, double& watched_s) {
   watched_s = 0;
-  if (system.problem->later_steps.empty()) return run(solve, system, control);
+  if (system.problem->later_steps.empty()) return solve_load_case(solve, system, control);
   const std::shared_ptr<const Problem> first = system.problem;
   Solution path;
   Solution last = solve_load_steps(solve, system, control,

@@ -22,6 +22,7 @@ MeshSizes solved_sizes(const PosedProblem& problem) {
     sizes.n_c -= sizes.n_c / 2;
   }
   sizes.n_f += 2 * static_cast<int>(std::ranges::count(body->loads.rollers, true));
+  sizes.n_f -= static_cast<int>(body->free.pins.size());
   return sizes;
 }
 
@@ -39,6 +40,9 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
     return "bodies in contact with each other: other programs get one body, or the condensed law";
   if (!body->opposite.empty() && !method.joins_bodies)
     return "bodies in contact with each other: its active sets hold edges at walls only";
+  if (!body->free.motions.empty() && (external || !method.condenses_contact()))
+    return "a body that contact alone holds: its motion is found by methods of ours that condense "
+           "on the contact points";
   const std::string why = why_no_blocks(*body, method.blocks);
   if (why.empty()) return why;
   std::vector<std::string> others;

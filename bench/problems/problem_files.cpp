@@ -230,6 +230,11 @@ void check_problem_format(const std::string& format) {
 
 ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   const Problem& problem = *posed.body();
+  if (!problem.free.motions.empty())
+    throw UsageError(fmt::format(
+        "{}: a body that contact alone holds has no D to export (allowed: bodies that displacement "
+        "edges hold)",
+        problem.mesh.name));
   const bool fclib = format == "fclib";
   const std::string why_no_airy = why_no_blocks(problem, Blocks::airy);
   const bool contact = std::ranges::any_of(problem.mesh.boundary, [](const BoundaryEdge& edge) {

@@ -9,6 +9,7 @@
 #include "solvers/condensation/refinement.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/free_bodies.hpp"
 
 namespace airybench {
 namespace {
@@ -66,9 +67,15 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
     reference.condensed.G = factor.load(system.b.cast<double>());
     reference.condensed.D = factor.compliance();
     reference.condensed.points = airy.contact;
-    const Eigen::VectorXd F = start_is == StartIs::solution
-                                  ? start
-                                  : solve_contact(reference.condensed, {.start = start}).F_C;
+    Eigen::VectorXd F = start;
+    if (start_is == StartIs::guess) {
+      ContactResult found = solve_contact(reference.condensed, {.start = start});
+      F = std::move(found.F_C);
+      if (found.free_motion_mm.size() > 0)
+        reference.condensed.points =
+            with_known_motion(reference.condensed.points, found.free_motion_mm);
+      reference.free_motion_mm = std::move(found.free_motion_mm);
+    }
     force_error =
         solve_contact_to_rounding(system, scale, F, factor.cholesky(), reference, refined);
   } else {

@@ -21,6 +21,7 @@ namespace airybench {
 struct Reference {
   contact::Problem condensed;       // D as factorised; G such that D F_C − G is the refined ū_C
   Eigen::VectorXd F_C;              // N
+  Eigen::VectorXd free_motion_mm;   // as in Solution
   StressField stress;               // MPa
   double natural_map_residual = 0;  // of F_C with the refined ū_C, relative
   double error_estimate = 0;        // largest of the three estimates, relative

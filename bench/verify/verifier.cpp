@@ -166,8 +166,10 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
   return work;
 }
 
-double work_of_gap(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
-  return contact.gap.size() > 0 ? contact.gap.dot(F_C) : 0;
+// Of the gap without free motions, where F_C balances the loads on these.
+double work_of_gap(const DualSystem& system, const Eigen::VectorXd& F_C) {
+  const Eigen::VectorXd& gap = system.contact.gap;
+  return gap.size() > 0 ? gap.dot(F_C) - work_on_free_motion(*system.problem) : 0;
 }
 
 std::string digits(double value) { return value == 0 ? "0" : fmt::format("{:.4e}", value); }
@@ -183,7 +185,7 @@ std::string share(double value, double other) {
 double work_of_prescribed(const DualSystem& system, const StressField& stress,
                           const Eigen::VectorXd& F_C) {
   const Problem& problem = *system.problem;
-  const double of_gap = work_of_gap(system.contact, F_C);
+  const double of_gap = work_of_gap(system, F_C);
   if (!problem.loads.displacement_mm) return of_gap;
   return work_of_prescribed_displacement(problem, edge_balance(problem, stress)) + of_gap;
 }
@@ -258,7 +260,7 @@ Verification verify(const DualSystem& system, const Solution& solution,
   result.strain_energy_Nmm = stress_norm_squared(problem, solution.stress) / 2;
   result.complementary_energy_Nmm = result.strain_energy_Nmm -
                                     work_of_prescribed_displacement(problem, balance) -
-                                    work_of_gap(system.contact, solution.F_C);
+                                    work_of_gap(system, solution.F_C);
   if (reference != nullptr) {
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
     const double distance = stress_distance(problem, solution.stress, reference->stress);

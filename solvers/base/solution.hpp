@@ -57,6 +57,9 @@ struct Solution {
   // displacement method's are at its control points (control_points.hpp).
   Eigen::VectorXd F_C;
   Eigen::VectorXd contact_displacement;  // ū_C that belongs to them, mm; in the rows of F_C
+  // Of pieces that contact alone holds (free_motions.hpp); empty: there is none, or it is known.
+  // ū_C and displacements are those of the pinned pieces, without it.
+  Eigen::VectorXd free_motion_mm;
   Eigen::VectorXd phi;  // Airy function as airy_function() gives it; empty: the method has none
   StressField stress;   // MPa
   // Displacement methods only: a DisplacementField w (displacement_field.hpp) of one degree more

@@ -93,9 +93,9 @@ void add(LongSaddleVector& answer, const SaddleVector& delta) {
   answer.lambda_C += delta.lambda_C.cast<long double>();
 }
 
-CheckContact with_D(const DualSystem& system, const Eigen::MatrixXd& D, const LoadScale& scale) {
+CheckContact with_D(const contact::Problem& condensed, const LoadScale& scale) {
   return [&](const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement) {
-    return check_contact(D, system.contact, F_C, displacement, scale);
+    return check_contact(condensed.D, condensed.points, F_C, displacement, scale);
   };
 }
 
@@ -123,10 +123,11 @@ void check(const Checked& of, const SaddleVector& answer, const RunControl& cont
 
 }  // namespace
 
-void check_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D, const SaddleSolve& solve,
-                       const SaddleVector& answer, const RunControl& control, Solution& solution) {
+void check_airy_answer(const DualSystem& system, const contact::Problem& condensed,
+                       const SaddleSolve& solve, const SaddleVector& answer,
+                       const RunControl& control, Solution& solution) {
   const LoadScale scale = load_scale(*system.problem);
-  check({system, with_D(system, D, scale), scale, solve}, answer, control, solution);
+  check({system, with_D(condensed, scale), scale, solve}, answer, control, solution);
 }
 
 void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& solve,
@@ -146,12 +147,12 @@ void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& so
   check({system, check_law, scale, solve}, answer, control, solution);
 }
 
-void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
+void refine_airy_answer(const DualSystem& system, const contact::Problem& condensed,
                         const SaddleSolve& solve, const SaddleVector& answer,
                         const RunControl& control, Solution& solution) {
   constexpr int most_steps = 20;
   const LoadScale scale = load_scale(*system.problem);
-  const Checked of{system, with_D(system, D, scale), scale, solve};
+  const Checked of{system, with_D(condensed, scale), scale, solve};
   LongSaddleVector trial = in_long(answer), best = trial;
   Eigen::VectorXd F = solution.F_C;
   const auto next_correction = [&](int number) {
@@ -165,9 +166,9 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
     add(trial, next.delta);
     if (F.size() > 0) {
       const Eigen::VectorXd u = -trial.lambda_C.cast<double>();
-      const Eigen::VectorXd r = relative_to_gap(system.contact, u);
+      const Eigen::VectorXd r = relative_to_gap(condensed.points, u);
       SaddleVector change{Eigen::VectorXd::Zero(system.n()), Eigen::VectorXd::Zero(system.n_f()),
-                          active_set_step(D, system.contact, F, r) - F};
+                          active_set_step(condensed.D, condensed.points, F, r) - F};
       F += change.lambda_C;
       solve(change);
       add(trial, change);

@@ -49,8 +49,9 @@ using SaddleSolve = std::function<void(SaddleVector&)>;
 
 // What belongs to the solution's F_C: sets its error estimate, and says `inaccurate` where it is ok
 // so far and the estimate is above the target.
-void check_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D, const SaddleSolve& solve,
-                       const SaddleVector& answer, const RunControl& control, Solution& solution);
+void check_airy_answer(const DualSystem& system, const contact::Problem& condensed,
+                       const SaddleSolve& solve, const SaddleVector& answer,
+                       const RunControl& control, Solution& solution);
 // For a method that has no D: with a rough diagonal (rough_compliance.hpp), the error of the
 // contact forces is taken to be ten times the natural map.
 void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& solve,
@@ -58,7 +59,7 @@ void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& so
                                  Solution& solution);
 
 // The same after refinement of F_C, φ and stresses.
-void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
+void refine_airy_answer(const DualSystem& system, const contact::Problem& condensed,
                         const SaddleSolve& solve, const SaddleVector& answer,
                         const RunControl& control, Solution& solution);
 

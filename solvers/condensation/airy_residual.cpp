@@ -118,7 +118,9 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
     for (int end = 0; end < 2; ++end) {
       const EdgeFrameIn<Long> frame = system.problem->frame_of_moment<Long>(row, 1, end);
       for (int k = 0; k < 2; ++k) {
-        if (condition.component[k] == Known::displacement) continue;
+        if (condition.component[k] == Known::displacement ||
+            system.problem->free.pins_down(row, end, k))
+          continue;
         const Eigen::Vector2<Long> axis = condition.in_frame
                                               ? (k == 0 ? frame.normal : frame.tangent)
                                               : Eigen::Vector2<Long>(k == 0, k == 1);

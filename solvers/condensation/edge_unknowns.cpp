@@ -21,6 +21,11 @@ int number_unknowns(const Problem& problem, const ContactPoints& contact, EdgeUn
       if (condition.component[k] == Known::displacement)
         for (int j = 0; j < moments; ++j) edge[2 * j + k] = prescribed_unknown;
   }
+  for (const auto& [row, component] : problem.free.pins) {
+    const auto [a, b] = problem.mesh.boundary[row].vertices;
+    const int first = a < b ? 0 : moments - 1;  // from the low vertex on
+    unknown[problem.edges.of_boundary[row]][2 * first + component] = prescribed_unknown;
+  }
   // Contact unknowns are marked by −2 − row until the inner ones are counted.
   for (int p = 0; p < contact.count; ++p) {
     const std::span<int> edge = unknown[problem.edges.of_boundary[contact.boundary[p]]];

@@ -2,15 +2,18 @@
 
 #include "solvers/base/dense_products.hpp"
 #include "solvers/base/kept_body.hpp"
+#include "solvers/contact/free_bodies.hpp"
 
 namespace airybench {
 namespace {
 
-void finish(const contact::Problem& condensed, const RunControl& control,
+void finish(contact::Problem& condensed, const RunControl& control,
             const std::function<void()>& recover, const std::function<void()>& check,
             Solution& solution) {
   solution.storage[MemoryOwner::condensed] = condensed.bytes();
   solve_condensed_contact(condensed, control, solution);
+  if (solution.free_motion_mm.size() > 0)
+    condensed.points = with_known_motion(condensed.points, solution.free_motion_mm);
   {
     const StageTimer timer(solution.times, Stage::recover);
     recover();
@@ -63,7 +66,7 @@ void store_airy_answer(const DualSystem& system, const Eigen::VectorXd& x, Solut
 }
 
 void finish_in_airy_function(const DualSystem& system, const RunControl& control,
-                             const contact::Problem& condensed,
+                             contact::Problem& condensed,
                              const std::function<SaddleVector(const Eigen::VectorXd& F_C)>& recover,
                              const BodySolve& solve, Refine refine, Solution& solution,
                              std::shared_ptr<const void> owner) {
@@ -78,9 +81,9 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
       },
       [&] {
         if (refine == Refine::yes)
-          refine_airy_answer(system, condensed.D, solve_here, answer, control, solution);
+          refine_airy_answer(system, condensed, solve_here, answer, control, solution);
         else
-          check_airy_answer(system, condensed.D, solve_here, answer, control, solution);
+          check_airy_answer(system, condensed, solve_here, answer, control, solution);
       },
       solution);
   if (!control.keep_body || !owner) return;
@@ -92,7 +95,7 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
 }
 
 void finish_in_displacements(const Problem& problem, const RunControl& control,
-                             const contact::Problem& condensed, StiffnessFactor& factor,
+                             contact::Problem& condensed, StiffnessFactor& factor,
                              const std::function<void(Eigen::VectorXd u)>& recover,
                              const std::function<UnbalancedForces()>& unbalanced,
                              Solution& solution) {

@@ -1,6 +1,7 @@
 // What every condensation ends with, D and G being there:
 //
-//   contact   the contact forces, by the contact law on ū_C = D F_C − G
+//   contact   the contact forces, by the contact law on ū_C = D F_C − G, and free motions, which
+//             then stand in the condensed problem's gap
 //   recover   from them φ or u, and the stresses
 //   check     the method's own estimate of its error, by one more solve; refinement
 //
@@ -27,7 +28,7 @@ using BodySolve = std::function<void(const DualSystem&, SaddleVector&)>;
 // Other load cases need no more than D and `solve`:  [S Cᵀ; C 0] (x, λ, λ') = (q, F, F_C − F0)  has
 // λ' = G for F_C = 0, and is the recovery for the F_C found.
 void finish_in_airy_function(const DualSystem& system, const RunControl& control,
-                             const contact::Problem& condensed,
+                             contact::Problem& condensed,
                              const std::function<SaddleVector(const Eigen::VectorXd& F_C)>& recover,
                              const BodySolve& solve, Refine refine, Solution& solution,
                              std::shared_ptr<const void> owner = nullptr);
@@ -38,7 +39,7 @@ void store_airy_answer(const DualSystem& system, const Eigen::VectorXd& x, Solut
 // Of a method in displacements. recover: the stresses of the displacements u into the solution.
 // unbalanced: the forces that these and F_C leave.
 void finish_in_displacements(const Problem& problem, const RunControl& control,
-                             const contact::Problem& condensed, StiffnessFactor& factor,
+                             contact::Problem& condensed, StiffnessFactor& factor,
                              const std::function<void(Eigen::VectorXd u)>& recover,
                              const std::function<UnbalancedForces()>& unbalanced,
                              Solution& solution);

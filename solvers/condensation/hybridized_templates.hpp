@@ -29,7 +29,9 @@ void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::V
     for (int j = 0; j <= degree; ++j) {
       const Eigen::Vector2d force =
           frame.length_mm / (degree + 1) * ((degree - j) * low + j * high) / degree;
-      for (int k = 0; k < 2; ++k) b(unknown[edge][2 * j + k]) += force(k);
+      for (int k = 0; k < 2; ++k)
+        if (const int number = unknown[edge][2 * j + k]; number != prescribed_unknown)
+          b(number) += force(k);
     }
   }
 }

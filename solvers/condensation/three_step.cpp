@@ -187,7 +187,7 @@ void solve_in_three_steps(const DualSystem& system, const RunControl& control,
   solution.storage[MemoryOwner::intermediate] = steps.bytes();
   solution.file_bytes = steps.X.bytes() - steps.X.heap_bytes();
   finish_in_airy_function(
-      system, control, steps.condensed,
+      system, control, kept->steps.condensed,
       [&](const Eigen::VectorXd& F_C) {
         return recover_airy_unknowns(steps, system, F_C, solve_S);
       },

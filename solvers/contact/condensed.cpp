@@ -11,6 +11,7 @@
 #include "solvers/contact/anderson.hpp"
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/free_bodies.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
 #include "solvers/contact/paired_points.hpp"
 
@@ -44,6 +45,7 @@ ContactResult solve_contact(const contact::Problem& problem, const ContactOption
     result.F_C = at_both(problem.points, result.F_C);
     return result;
   }
+  if (!problem.points.free.is_empty()) return solve_with_free_bodies(problem, options, deadline);
   if (options.by) return options.by(problem);
   switch (options.solver) {
     case ContactSolver::newton:
@@ -70,6 +72,7 @@ void solve_condensed_contact(const contact::Problem& problem, const RunControl& 
   if (control.stop == Stop::paper) options.solver = ContactSolver::gauss_seidel;
   ContactResult result = solve_contact(problem, options, control.deadline);
   solution.F_C = std::move(result.F_C);
+  solution.free_motion_mm = std::move(result.free_motion_mm);
   solution.contact_iterations = result.iterations;
   solution.newton_steps = result.active_set_steps;
   if (control.histories) {

@@ -12,7 +12,8 @@
 namespace airybench {
 
 struct ContactResult {
-  Eigen::VectorXd F_C;  // N
+  Eigen::VectorXd F_C;             // N
+  Eigen::VectorXd free_motion_mm;  // a of ContactPoints::free; empty: there is none
   // By ContactOptions::tolerance, or by ContactOptions::acceptable where it ended.
   bool converged = false;
   int iterations = 0;                                                     // sweeps
@@ -24,7 +25,8 @@ struct ContactResult {
 // That of coulomb_law.hpp, with r = D F − G − ḡ.
 double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F);
 
-// By options.by or options.solver. Throws TimeoutReached.
+// By options.by or options.solver, pairs and free bodies by theirs (paired_points.hpp,
+// free_bodies.hpp). Throws TimeoutReached, Breakdown.
 ContactResult solve_contact(const contact::Problem& problem, const ContactOptions& options = {},
                             const Deadline& deadline = {});
 

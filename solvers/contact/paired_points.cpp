@@ -47,6 +47,10 @@ ContactPoints joined(const ContactPoints& points) {
     ++result.count;
   }
   if (points.gap.size() > 0) result.gap = of_both(points, points.gap);
+  result.free = points.free;
+  result.free.motions.resize(result.size(), points.free.motions.cols());
+  for (Eigen::Index m = 0; m < points.free.motions.cols(); ++m)
+    result.free.motions.col(m) = of_both(points, points.free.motions.col(m));
   return result;
 }
 

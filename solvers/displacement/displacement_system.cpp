@@ -6,7 +6,7 @@ namespace airybench {
 namespace {
 
 // Numbers the unknowns, those of the control points last; returns how many there are.
-int number_unknowns(DisplacementSystem& system) {
+int number_unknowns(const Problem& problem, DisplacementSystem& system) {
   constexpr int not_yet = -2, later = -3;
   const ContactPoints& law = system.control.law;
   system.unknown.assign(system.given.at.size(), {not_yet, not_yet});
@@ -14,6 +14,9 @@ int number_unknowns(DisplacementSystem& system) {
     if (system.given.at[node]) system.unknown[node].fill(DisplacementSystem::prescribed);
   for (const auto& [node, normal] : system.given.normal)
     system.unknown[node][0] = DisplacementSystem::prescribed;
+  for (const auto& [row, component] : problem.free.pins)
+    system.unknown[problem.mesh.boundary[row].vertices[0]][component] =
+        DisplacementSystem::prescribed;
   for (int p = 0; p < law.count; ++p) {
     auto& unknown = system.unknown[system.control.node[p]];
     unknown[0] = later;
@@ -148,7 +151,7 @@ DisplacementSystem assemble_displacement_system(const Problem& problem, int degr
   system.degree = degree;
   system.control = control_points(problem, degree);
   system.given = prescribed_displacement(problem, degree);
-  const int n = number_unknowns(system);
+  const int n = number_unknowns(problem, system);
   const std::map<int, Eigen::Matrix2d> frame = frames(system);
   system.b = Eigen::VectorXd::Zero(n);
   with_degree(degree - 1, [&](auto k) {

@@ -25,8 +25,8 @@
 namespace airybench {
 
 struct DisplacementSystem {
-  static constexpr int prescribed = -1;
-  int degree = 2;  // p
+  static constexpr int prescribed = -1;  // or pinned (free_motions.hpp)
+  int degree = 2;                        // p
   ControlPoints control;
   PrescribedDisplacement given;
   // Per node: the numbers of its two unknowns, x and y; at control points and on rollers normal and

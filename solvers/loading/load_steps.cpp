@@ -130,12 +130,20 @@ double dissipation_Nmm(const DualSystem& system, const Solution& answer) {
   return work;
 }
 
+Solution solve_load_case(const Solve& solve, DualSystem& system, const RunControl& control) {
+  Solution answer = run(solve, system, control);
+  if (answer.free_motion_mm.size() > 0)
+    set_load_case(system, std::make_shared<const Problem>(
+                              with_free_motion(*system.problem, answer.free_motion_mm)));
+  return answer;
+}
+
 Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunControl& control,
                           const VisitStep& visit) {
   const std::shared_ptr<const Problem> first = system.problem;
   RunControl keeping = control;
   keeping.keep_body = !first->later_steps.empty();
-  Solution answer = run(solve, system, keeping);
+  Solution answer = solve_load_case(solve, system, keeping);
   const Solve again = answer.solve_again ? answer.solve_again : solve;
   answer.solve_again = nullptr;  // `again` has the body
   if (visit) visit(0, system, answer);
@@ -145,7 +153,7 @@ Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunContr
     set_load_case(system, std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
     RunControl from_here = control;
     if (answer.F_C.allFinite()) from_here.contact.start = std::move(answer.F_C);
-    answer = run(again, system, from_here);
+    answer = solve_load_case(again, system, from_here);
     if (visit) visit(static_cast<int>(k) + 1, system, answer);
   }
   return answer;

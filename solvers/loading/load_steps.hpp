@@ -32,6 +32,10 @@ Problem with_half_steps(const Problem& first);
 // step: from 0. The system is that of the step, its slip measured from this path's own past.
 using VisitStep = std::function<void(int step, const DualSystem& system, const Solution& answer)>;
 
+// A problem without its later steps. Where a free motion was found, the system's problem knows it
+// then (free_motions.hpp).
+Solution solve_load_case(const Solve& solve, DualSystem& system, const RunControl& control);
+
 // Solves a problem and its later steps, and calls visit() after each. Stops at the first step that
 // has no answer. Returns the last answer; the system then has its load case.
 Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunControl& control,

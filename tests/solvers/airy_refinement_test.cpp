@@ -73,14 +73,16 @@ struct Dense {
     Solution result = unjudged(answer, F_C);
     RunControl control;
     control.target_error = target;
-    check_airy_answer(system, own_D, own_solve, answer, control, result);
+    check_airy_answer(system, {.D = own_D, .points = system.contact}, own_solve, answer, control,
+                      result);
     return result;
   }
   // What refinement with this solve makes of an answer.
   Solution refined(const MatrixXd& own_D, const SaddleSolve& own_solve, const SaddleVector& answer,
                    const VectorXd& F_C) const {
     Solution result = unjudged(answer, F_C);
-    refine_airy_answer(system, own_D, own_solve, answer, {}, result);
+    refine_airy_answer(system, {.D = own_D, .points = system.contact}, own_solve, answer, {},
+                       result);
     return result;
   }
   double energy_norm(const VectorXd& x) const {
@@ -165,7 +167,8 @@ TEST_F(AiryRefinement, LeavesResidualsAtRounding) {
     const auto answer = [&](const Solution& s) { return of_scene.answer(s.F_C); };
     const MatrixXd own_D = of_scene.D();
     Solution result = of_scene.solution();
-    refine_airy_answer(of_scene.system, own_D, of_scene.solve(), answer(result), {}, result);
+    refine_airy_answer(of_scene.system, {.D = own_D, .points = of_scene.system.contact},
+                       of_scene.solve(), answer(result), {}, result);
     EXPECT_LE(result.error_estimate.value_or(1), 1e-14);
     EXPECT_EQ(result.status, Status::ok);
     EXPECT_EQ(of_scene.checked(own_D, of_scene.solve(), answer(result), result.F_C, 1e-10).status,

@@ -7,6 +7,7 @@
 
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
+#include "solvers/loading/load_steps.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
 
@@ -19,7 +20,7 @@ struct SolvedScene {
   SolvedScene(const Scene& scene, const Mesh& mesh, const std::string& name) {
     const Method method = select_methods(name).front();
     system = assemble(posed(scene, mesh), method.blocks, method.degree);
-    solution = run(method, system, {});
+    solution = solve_load_case(method.solve, system, {});
     EXPECT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
   }
   const Problem& problem() const { return *system.problem; }

@@ -271,15 +271,6 @@ TEST(TwoBodies, WhatCannotBeIsRefusedInALine) {
             "default scene: boundary: contact:base: friction of a group in contacts (allowed: "
             "face; friction "
             "and clearance_mm of the pair)");
-  Mesh floating = mesh;
-  for (BoundaryEdge& edge : floating.boundary)
-    if (boundary_label(floating, edge) == "displacement:head") edge.role = BoundaryRole::force;
-  Scene scene = pressed(0.3);
-  scene.boundary.erase("displacement:head");
-  EXPECT_EQ(
-      testing::complaint_of<SceneError>([&] { pose(scene, floating); }),
-      "default scene: mesh blocks: 2 separate pieces, the piece at the vertex [0, 0] is held by "
-      "contact alone (allowed: displacement edges on every piece)");
 }
 
 }  // namespace

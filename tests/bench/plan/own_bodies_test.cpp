@@ -81,7 +81,7 @@ TEST_P(OwnBodies, FacesOfDifferentBodiesAreProposedInPairs) {
 const std::vector<const char*> few = {"cylinder", "plate", "stack"},
                                all = {"punch",  "dovetail", "cylinder",  "L",        "plate",
                                       "ring",   "stack",    "cylinders", "indenter", "lug",
-                                      "blocks", "snap",     "gear"};
+                                      "blocks", "snap",     "gear",      "roller",   "pile"};
 INSTANTIATE_TEST_SUITE_P(Of, OwnBodies, ::testing::ValuesIn(testing::sanitized ? few : all),
                          [](const auto& body) { return std::string(body.param); });
 

@@ -65,6 +65,20 @@ TEST(Stages, AMethodWithoutAiryFunctionGetsNoAirySystem) {
             "the method does not work with the Airy function");
 }
 
+TEST(Stages, ABodyThatContactAloneHoldsIsForMethodsThatCondense) {
+  Scene scene;
+  scene.boundary["displacement"].support = BoundaryValues::Support::normal;  // it may slide along
+  for (const Method& method : methods()) {
+    auto gone = left_out(scene, method.name.c_str());
+    const bool skipped = method.name.starts_with("ALM") || method.name == "HYBRID:CG";
+    EXPECT_EQ(gone.contains("all stages"), skipped) << method.name;
+    if (!skipped) continue;
+    EXPECT_EQ(gone["all stages"],
+              "a body that contact alone holds: its motion is found by methods of ours that "
+              "condense on the contact points");
+  }
+}
+
 TEST(Stages, OnABodyWithAHoleTheAiryMethodsAreSkipped) {
   const std::string why =
       "a body with 1 hole needs a multi-valued Airy function (methods without one: HYBRID, "

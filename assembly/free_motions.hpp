@@ -1,0 +1,49 @@
+// Rigid motions of pieces of a mesh that no displacement edge holds: contact alone does.
+//
+//   u = w + ρ + Σ_m a_m N_m   on such a piece, N_m of at most 1, a_m in mm
+//
+// w vanishes at pins, as many freedoms as the piece has motions. So all matrices are those of held
+// bodies. Where contact balances the loads on every N_m, N_mᵀ F + l_m = 0, pins have no reactions,
+// and w has the stresses of u. free_bodies.hpp (solvers/contact) finds a.
+#pragma once
+
+#include <vector>
+
+#include "assembly/rigid_motion.hpp"
+#include "mesh/mesh.hpp"
+
+namespace airybench {
+
+struct FreeMotion {
+  int piece;  // of MeshPieces
+  RigidMotion of_one_mm;
+};
+
+// w has no such component at the start of a force edge, a row of Mesh::boundary: in moments the
+// edge's first.
+struct Pin {
+  int row, component;
+};
+
+struct FreeMotions {
+  std::vector<FreeMotion> motions;
+  std::vector<Pin> pins;             // as many; fewer: a piece has no place for them
+  std::vector<int> piece_of_vertex;  // empty where there is no motion
+  Eigen::VectorXd amounts_mm;        // a; empty: not known
+
+  bool are_unknown() const { return !motions.empty() && amounts_mm.size() == 0; }
+  // Of the piece that this vertex belongs to; without amounts zero.
+  Eigen::Vector2d at(const Eigen::Vector2d& x, int vertex) const;
+  // At an end of a boundary edge, from its start on.
+  bool pins_down(int row, int end, int component) const;
+};
+
+// Of pieces with contact edges: all three, or the one that parallel rollers leave. rollers: per row
+// of Mesh::boundary; empty: none. A pin is at no vertex of another role.
+FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
+                         const MeshPieces& pieces);
+
+// As users know it: the name of its body if it has one of its own, else by a vertex.
+std::string name_of_piece(const Mesh& mesh, const std::vector<int>& piece_of_vertex, int piece);
+
+}  // namespace airybench

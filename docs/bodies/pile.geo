@@ -1,0 +1,21 @@
+// Three blocks on one another; only the lowest is held.
+DefineConstant[ h = 2 ];
+Point(1) = {0, 0, 0, h};   Point(2) = {20, 0, 0, h};   Point(3) = {20, 6, 0, h};   Point(4) = {0, 6, 0, h};
+Line(1) = {1, 2};  Line(2) = {2, 3};  Line(3) = {3, 4};  Line(4) = {4, 1};
+Curve Loop(1) = {1 : 4};  Plane Surface(1) = {1};
+Point(5) = {2, 6, 0, h/1.7};  Point(6) = {16, 6, 0, h/1.7};  Point(7) = {16, 11, 0, h/1.3};  Point(8) = {2, 11, 0, h/1.3};
+Line(5) = {5, 6};  Line(6) = {6, 7};  Line(7) = {7, 8};  Line(8) = {8, 5};
+Curve Loop(2) = {5 : 8};  Plane Surface(2) = {2};
+Point(9) = {4, 11, 0, h/2.3};  Point(10) = {11, 11, 0, h/2.3};  Point(11) = {11, 15, 0, h};  Point(12) = {4, 15, 0, h};
+Line(9) = {9, 10};  Line(10) = {10, 11};  Line(11) = {11, 12};  Line(12) = {12, 9};
+Curve Loop(3) = {9 : 12};  Plane Surface(3) = {3};
+Physical Curve("displacement:floor") = {1};
+Physical Curve("contact:low") = {3};
+Physical Curve("contact:middle_below") = {5};
+Physical Curve("contact:middle_above") = {7};
+Physical Curve("contact:high") = {9};
+Physical Curve("force:top") = {11};
+Physical Curve("force") = {2, 4, 6, 8, 10, 12};
+Physical Surface("low") = {1};
+Physical Surface("middle") = {2};
+Physical Surface("high") = {3};

@@ -1,0 +1,30 @@
+// A roller between two plates, held by nothing but them.
+DefineConstant[ h = 1.5, fine = 0.15 ];
+R = 6;  w = 1.2;                        // radius; half width of the contact faces
+y = R - Sqrt(R*R - w*w);
+Point(1) = {0, 0, 0, fine};    Point(2) = {w, y, 0, 2*fine};        Point(3) = {R, R, 0, h};
+Point(4) = {w, 2*R - y, 0, 2*fine};  Point(5) = {0, 2*R, 0, fine};  Point(6) = {-w, 2*R - y, 0, 2*fine};
+Point(7) = {-R, R, 0, h};  Point(8) = {-w, y, 0, 2*fine};  Point(9) = {0, R, 0, h};
+Circle(1) = {1, 9, 2};  Circle(2) = {2, 9, 3};  Circle(3) = {3, 9, 4};  Circle(4) = {4, 9, 5};
+Circle(5) = {5, 9, 6};  Circle(6) = {6, 9, 7};  Circle(7) = {7, 9, 8};  Circle(8) = {8, 9, 1};
+Curve Loop(1) = {1 : 8};  Plane Surface(1) = {1};
+Point(11) = {-8, -5, 0, h};  Point(12) = {8, -5, 0, h};  Point(13) = {8, 0, 0, h};  Point(14) = {w, 0, 0, 2*fine};
+Point(15) = {0, 0, 0, 1.3*fine};  Point(16) = {-w, 0, 0, 2*fine};  Point(17) = {-8, 0, 0, h};
+Line(11) = {11, 12};  Line(12) = {12, 13};  Line(13) = {13, 14};  Line(14) = {14, 15};
+Line(15) = {15, 16};  Line(16) = {16, 17};  Line(17) = {17, 11};
+Curve Loop(2) = {11 : 17};  Plane Surface(2) = {2};
+Point(21) = {8, 2*R + 5, 0, h};  Point(22) = {-8, 2*R + 5, 0, h};  Point(23) = {-8, 2*R, 0, h};  Point(24) = {-w, 2*R, 0, 2*fine};
+Point(25) = {0, 2*R, 0, 1.3*fine};  Point(26) = {w, 2*R, 0, 2*fine};  Point(27) = {8, 2*R, 0, h};
+Line(21) = {21, 22};  Line(22) = {22, 23};  Line(23) = {23, 24};  Line(24) = {24, 25};
+Line(25) = {25, 26};  Line(26) = {26, 27};  Line(27) = {27, 21};
+Curve Loop(3) = {21 : 27};  Plane Surface(3) = {3};
+Physical Curve("displacement:floor") = {11};
+Physical Curve("displacement:plate") = {21};
+Physical Curve("contact:floor") = {14, 15};
+Physical Curve("contact:plate") = {24, 25};
+Physical Curve("contact:roller_below") = {8, 1};
+Physical Curve("contact:roller_above") = {4, 5};
+Physical Curve("force") = {2, 3, 6, 7, 12, 13, 16, 17, 22, 23, 26, 27};
+Physical Surface("roller") = {1};
+Physical Surface("floor") = {2};
+Physical Surface("plate") = {3};

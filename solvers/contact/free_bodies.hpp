@@ -1,0 +1,27 @@
+// The contact law of bodies that contact alone holds (contact_problem.hpp):
+//
+//   r = D F − G − ḡ + N a,   Nᵀ F + l = 0
+//
+// D is that of pinned bodies. A spring of compliance m holds every motion at a_k, and yields to
+// what is not balanced, a = a_k + m (Nᵀ F + l):
+//
+//   r = (D + m N Nᵀ) F − (G − N (a_k + m l)) − ḡ
+//
+// is an ordinary contact problem; then a_{k+1} = a, and m is 10 times larger. (Proximal steps of
+// the method of multipliers, Rockafellar 1976, doi:10.1137/0314056.) What stays unbalanced falls by
+// 1 + m c per step, c the contact's stiffness against the motion: where there is none, and a load,
+// it stays.
+#pragma once
+
+#include "solvers/contact/condensed.hpp"
+
+namespace airybench {
+
+// D must be dense. Throws Breakdown, with body and direction, where loads stay unbalanced.
+ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
+                                     const Deadline& deadline);
+
+// Motions that are known stand in the gap.
+ContactPoints with_known_motion(ContactPoints points, const Eigen::VectorXd& motion_mm);
+
+}  // namespace airybench
