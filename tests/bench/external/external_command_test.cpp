@@ -109,15 +109,37 @@ TEST_F(ExternalCommand, ItsLogIsKept) {
   EXPECT_EQ(bench_.content("o/programs/Mesh0--default--EXTERNAL+airy.txt"), "iterations: 7\n");
 }
 
-TEST_F(ExternalCommand, PathsOfLoadStepsAreSkipped) {
-  declare_honest();
-  write("scenes/path.json", R"({"load_steps": 2})");
+// The condensed problem of a step has the slip of those before; friction remembers it on the way back.
+TEST_F(ExternalCommand, LoadStepsAreHandedToProgramsThatReadTheCondensedProblem) {
+  declare("airy", "airy", "exit 1");
+  declare("body", "body", "exit 1");
+  ASSERT_EQ(bench_.run("--new-external=mine").code, 0);
+  write("scenes/path.json", R"({"load_steps": [{"displacement_mm": [0.02, -0.006]},
+                                         {"displacement_mm": [0.015, 0]}]})");
   const auto records = records_of("--scene=scenes/path.json", 0);
   ASSERT_EQ(records.size(), 3u);
-  for (const auto& [name, r] : records) {
-    EXPECT_EQ(r["status"], "skipped") << name;
-    EXPECT_EQ(r["status_reason"], "a path of load steps: other programs are asked for one");
+  for (const char* name : {"airy", "body"}) {
+    EXPECT_EQ(records.at(name)["status"], "skipped");
+    EXPECT_EQ(records.at(name)["status_reason"],
+              "a path of load steps: the next one begins where this one has slipped, which only "
+              "the condensed problem says (allowed: programs that read it)");
   }
+  const Json& mine = records.at("mine");
+  EXPECT_EQ(mine["status"], "ok") << mine["status_reason"];
+  EXPECT_EQ(mine["load_steps"], 3);
+  ASSERT_EQ(mine["steps"].size(), 3u);
+  for (const Json& step : mine["steps"]) EXPECT_LT(step["error"], 1e-9);
+  EXPECT_GT(mine["steps"][1]["dissipation_Nmm"], 1e-6);
+}
+
+TEST_F(ExternalCommand, AStepWithoutAnAnswerEndsThePath) {
+  write_right();
+  declare("once", "condensed", "cp right/* $2; test ! -e ran || exit 7; touch ran");
+  write("scenes/path.json", R"({"load_steps": [{"displacement_mm": [0.02, -0.006]}]})");
+  const auto records = records_of("--scene=scenes/path.json", 1);
+  EXPECT_EQ(records.at("once")["status"], "crashed");
+  EXPECT_EQ(records.at("once")["status_reason"],
+            "load step 2 of 2: once ended with exit code 7");
 }
 
 TEST_F(ExternalCommand, WhatIsHandedOver) {
@@ -349,6 +371,16 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
             "print_precision: " + precision.dump() +
                 " (allowed: with \"returns\": \"displacement\", above 0, up to 5e-6: six digits)");
   refused(with({{"print_precision", 1e-7}}), "print_precision: 1e-07 (allowed: with ");
+  for (const auto& [key, wrong, allowed] :
+       {std::tuple("allowed_penetration", Json(0), "above 0, up to 1"),
+        {"allowed_penetration", Json("1 %"), "above 0, up to 1"},
+        {"weak_contact", Json(1), "true or false"}}) {
+    refused(with({{"reads", "body"}, {"returns", "displacement"}, {key, wrong}}),
+            std::string(key) + ": " + wrong.dump() +
+                " (allowed: with \"returns\": \"displacement\", " + allowed + ")");
+    refused(with({{key, key == std::string("weak_contact") ? Json(true) : Json(0.1)}}),
+            " (allowed: with \"returns\": \"displacement\", ");
+  }
   for (const Json& parameter :
        {Json(1), Json({{"a", {1}}, {"b", {1}}}), Json({{"threads", {1}}}), Json({{"A", {1}}}),
         Json({{"a", Json::array()}}), Json({{"a", {1, 0}}}), Json({{"a", {"1"}}})})
