@@ -317,11 +317,11 @@ Solution solve_contact_law(const Caller& caller,
   if (auto& contact_s = solution.times[Stage::contact]; contact_s && solution.program)
     *contact_s -= solution.program->not_solve_s;
   if (solution.solve_again)  // the next load step
-    solution.solve_again = with_no_answer(
-        [caller, again = std::move(solution.solve_again)](const DualSystem& s, const RunControl& c) {
-          return solve_contact_law(
-              caller, [&](const RunControl& own) { return again(s, own); }, s.problem.get(), c);
-        });
+    solution.solve_again = with_no_answer([caller, again = std::move(solution.solve_again)](
+                                              const DualSystem& s, const RunControl& c) {
+      return solve_contact_law(
+          caller, [&](const RunControl& own) { return again(s, own); }, s.problem.get(), c);
+    });
   return solution;
 }
 

@@ -104,9 +104,8 @@ void Judge::judge(const Method& method, const std::vector<JudgedStep>& steps,
 
 void Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
                               Record& record) const {
-  const auto worst = std::ranges::max_element(steps, {}, [](const JudgedStep& step) {
-    return step.seen().penetration_share.value_or(0);
-  });
+  const auto worst = std::ranges::max_element(
+      steps, {}, [](const JudgedStep& step) { return step.seen().penetration_share.value_or(0); });
   const Verification& v = worst->seen();
   if (!(v.penetration_share > allowed)) return;
   record.status = Status::inaccurate;

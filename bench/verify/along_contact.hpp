@@ -48,8 +48,7 @@ ContactMotion<p> contact_motion(const Problem& problem, int row, const Displacem
   for (int i = 0; i <= p; ++i) {
     const EdgeFrame frame = frame_of_coefficient<p>(problem, row, i);
     motion.beyond[i] = frame.normal.dot(w.col(nodes[i])) - offset[i].along(frame.normal).x();
-    motion.slip[i] =
-        frame.tangent.dot(w.col(nodes[i]) + offset[i].motion_mm) - offset[i].slid_mm;
+    motion.slip[i] = frame.tangent.dot(w.col(nodes[i]) + offset[i].motion_mm) - offset[i].slid_mm;
   }
   const int other = problem.opposite_of(row);
   if (other == Problem::no_row) return motion;
@@ -59,8 +58,7 @@ ContactMotion<p> contact_motion(const Problem& problem, int row, const Displacem
     const EdgeFrame frame = frame_of_coefficient<p>(problem, other, p - i);
     const Eigen::Vector2d of_other = w.col(across[p - i]);
     motion.beyond[i] += frame.normal.dot(of_other) - beyond[p - i].along(frame.normal).x();
-    motion.slip[i] +=
-        frame.tangent.dot(of_other + beyond[p - i].motion_mm) - beyond[p - i].slid_mm;
+    motion.slip[i] += frame.tangent.dot(of_other + beyond[p - i].motion_mm) - beyond[p - i].slid_mm;
   }
   return motion;
 }

@@ -31,10 +31,10 @@ ForceViolations force_violations(const ContactPoints& contact, const Eigen::Vect
     const double F_n = F(m * p);
     result.tension = std::max(result.tension, F_n / largest);
     if (m > 1)
-      result.friction_excess =
-          std::max(result.friction_excess,
-                   (tangential_force(contact, F, p) - contact.friction_at(p) * std::max(0.0, -F_n)) /
-                       largest);
+      result.friction_excess = std::max(
+          result.friction_excess,
+          (tangential_force(contact, F, p) - contact.friction_at(p) * std::max(0.0, -F_n)) /
+              largest);
   }
   return result;
 }
@@ -47,8 +47,8 @@ Penetration penetration(const Problem& problem, const DisplacementField& w) {
       if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
       const ContactMotion<p> motion = contact_motion<p>(problem, row, w);
       for (int i = 0; i <= p; ++i)
-        result.at_nodes_mm = std::max(
-            result.at_nodes_mm, bernstein_value(motion.beyond, static_cast<double>(i) / p));
+        result.at_nodes_mm = std::max(result.at_nodes_mm,
+                                      bernstein_value(motion.beyond, static_cast<double>(i) / p));
       const AlongEdge beyond = Eigen::Map<const Eigen::RowVectorXd>(motion.beyond.data(), p + 1);
       result.on_edges_mm = largest_value(beyond, {result.on_edges_mm}).value;
     }

@@ -58,8 +58,8 @@ Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementFi
   return force;
 }
 
-// Takes out what a weak contact law leaves at nodes of the triangles along Γ_C: contact forces, whose
-// normal and tangential sum it returns.
+// Takes out what a weak contact law leaves at nodes of the triangles along Γ_C: contact forces,
+// whose normal and tangential sum it returns.
 Eigen::Vector2d take_weak_forces(const Problem& problem, const std::vector<bool>& prescribed,
                                  Eigen::Matrix2Xd& balance) {
   std::vector<int> contact_row(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);

@@ -132,7 +132,8 @@ TEST_F(Answers, RoundingOfDisplacementsCountsUnlessItIsDeclared) {
 
 // In front of a wall 1e-4 mm farther away everything balances; the nearer one is penetrated.
 TEST_F(Answers, PenetrationBeyondWhatIsAllowedIsInaccurate) {
-  write("farther.mtx", testing::market(testing::right_answer({.clearance_mm = 1e-4}).displacement_mm));
+  write("farther.mtx",
+        testing::market(testing::right_answer({.clearance_mm = 1e-4}).displacement_mm));
   const std::string copy = answers + "cp farther.mtx $2/displacement_mm.mtx";
   declare("right", body, answers);
   declare("through", body, copy);
