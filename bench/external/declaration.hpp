@@ -23,7 +23,8 @@
 //                    until the program's own error estimate is below the target
 //   print_precision  optional, of displacement: the largest relative rounding of a printed number,
 //                    5e-7 for seven digits. Unbalanced forces that it explains do not count
-//   allowed_penetration  optional, of displacement: u_n − g0 over the largest displacement; 1e-3
+//   allowed_penetration  optional, of displacement: u_n − g0 at nodes over the largest
+//                    displacement; 1e-3
 //   weak_contact     optional, of displacement: true of a contact law (Nitsche's) that also loads
 //                    inner nodes next to Γ_C; contact forces are then asked for their sum
 #pragma once

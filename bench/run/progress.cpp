@@ -49,7 +49,7 @@ std::string in_unit(const std::optional<double>& value, const char* unit) {
   return value ? fmt::format("{:.1e} {}", *value, unit) : "-";
 }
 
-constexpr std::array<Column, 22> table_columns = {{
+constexpr std::array<Column, 23> table_columns = {{
     {"case", nullptr, [](const Record& r) { return name_of(r).text(); }},
     {"n_phi", "n_phi", [](const Record& r) { return whole(r.n_phi); }},
     {"n_c", "siconos_error", [](const Record& r) { return whole(r.n_c); }},
@@ -75,6 +75,8 @@ constexpr std::array<Column, 22> table_columns = {{
      [](const Record& r) { return show_error(worst_error_total(r)); }},
     // What bodies solved in displacements are asked.
     {"penetration", "penetration_mm",
+     [](const Record& r) { return in_unit(r.penetration_mm, "mm"); }},
+    {"between nodes", "penetration_mm",
      [](const Record& r) { return in_unit(r.edge_penetration_mm, "mm"); }},
     {"tension", "penetration_mm", [](const Record& r) { return show_error(r.tension); }},
     {"over friction", "penetration_mm",

@@ -55,7 +55,7 @@ Penetration penetration(const Problem& problem, const DisplacementField& w) {
   });
   const auto largest = [](const DisplacementField& u) { return u.colwise().norm().maxCoeff(); };
   result.share =
-      relative_error(result.on_edges_mm, largest(w), largest(with_rigid_motion(problem, w)));
+      relative_error(result.at_nodes_mm, largest(w), largest(with_rigid_motion(problem, w)));
   return result;
 }
 

@@ -23,8 +23,8 @@ ForceViolations force_violations(const ContactPoints& contact, const Eigen::Vect
 // both.
 struct Penetration {
   double at_nodes_mm = 0;  // at vertices and at p − 1 points of an edge, evenly spaced
-  double on_edges_mm = 0;  // anywhere
-  double share = 0;        // of the largest |w|; of the largest |u| if w = 0
+  double on_edges_mm = 0;  // anywhere: also an error of the discretisation
+  double share = 0;        // at nodes, of the largest |w|; of the largest |u| if w = 0
 };
 Penetration penetration(const Problem& problem, const DisplacementField& w);
 
