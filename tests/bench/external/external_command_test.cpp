@@ -1,5 +1,6 @@
 // Other people's programs through the bench command: honest ones, on all kinds of scenes, and wrong
 // declarations.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -338,15 +339,16 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
             "print_precision: " + precision.dump() +
                 " (allowed: with \"returns\": \"displacement\", above 0, up to 5e-6: six digits)");
   refused(with({{"print_precision", 1e-7}}), "print_precision: 1e-07 (allowed: with ");
-  for (const auto& [key, wrong, allowed] :
-       {std::tuple("allowed_penetration", Json(0), "above 0, up to 1"),
-        {"allowed_penetration", Json("1 %"), "above 0, up to 1"},
-        {"weak_contact", Json(1), "true or false"}}) {
-    refused(with({{"reads", "body"}, {"returns", "displacement"}, {key, wrong}}),
-            std::string(key) + ": " + wrong.dump() +
-                " (allowed: with \"returns\": \"displacement\", " + allowed + ")");
-    refused(with({{key, key == std::string("weak_contact") ? Json(true) : Json(0.1)}}),
-            " (allowed: with \"returns\": \"displacement\", ");
+  for (const auto& [key, wrong, right, allowed] :
+       {std::tuple("allowed_penetration", Json(0), Json(0.1), "above 0, up to 1"),
+        {"allowed_penetration", Json("1 %"), Json(1), "above 0, up to 1"},
+        {"weak_contact", Json(1), Json(true), "true or false"}}) {
+    const auto line = [&](const Json& given) {
+      return fmt::format("{}: {} (allowed: with \"returns\": \"displacement\", {})", key,
+                         given.dump(), allowed);
+    };
+    refused(with({{"reads", "body"}, {"returns", "displacement"}, {key, wrong}}), line(wrong));
+    refused(with({{key, right}}), line(right));
   }
   for (const Json& parameter :
        {Json(1), Json({{"a", {1}}, {"b", {1}}}), Json({{"threads", {1}}}), Json({{"A", {1}}}),
