@@ -7,7 +7,7 @@ contact edge is P(tau), where P_n = min(0, tau_n) and P_t is tau_t cut off at fr
 
     (sigma(u), eps(v)) - <sigma(u) n, sigma(v) n> / k + <P(tau), sigma(v) n - k v> / k = loads(v)
 
-Supports are eliminated, u = u0 + Z y. Newton with friction starts from the answer without.
+Supports are eliminated, u = u0 + Z y. Newton starts from the answer without friction.
 """
 import sys
 from pathlib import Path
@@ -27,6 +27,7 @@ from answer import write_answer  # noqa: E402
 from constraints import boundary_nodes, held_nodes, loads, sides_of  # noqa: E402
 
 MOST_STEPS, SMALL = 200, 1e-11  # of the first residual
+FRICTION = (1,), (0.25, 0.5, 0.75, 1)  # parts of it, one after another; the second where the first fails
 
 
 class Refused(Exception):
@@ -188,10 +189,16 @@ if __name__ == "__main__":
     y = PETSc.Vec().createSeq(Z.shape[1])
     steps, converged, small = newton(elements, residual, derivative, u0, Z, load, y, None)
     rows = sides_of(problem, "contact")
-    if problem["friction"][rows].any():
-        friction.x.array[:] = elements.along_edges(problem, rows, problem["friction"][:, None]).x.array
-        more, converged, _ = newton(elements, residual, derivative, u0, Z, load, y, small)
-        steps += more
+    if converged and problem["friction"][rows].any():
+        full, without = elements.along_edges(problem, rows, problem["friction"][:, None]), y.copy()
+        for path in FRICTION:
+            without.copy(y)
+            for part in path:
+                friction.x.array[:] = part * full.x.array
+                more, converged, _ = newton(elements, residual, derivative, u0, Z, load, y, small)
+                steps += more
+            if converged:
+                break
     u = elements.u.x.array.reshape(-1, 2)[elements.nodes]
     write_answer(output, {"displacement_mm": u}, status="ok" if converged else "not_converged",
                  message=f"{steps} Newton steps", time_s=perf_counter() - start, contact_iterations=steps,
