@@ -1,6 +1,7 @@
 #include "bench/verify/contact_violations.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "assembly/load_scale.hpp"
 #include "bench/verify/along_contact.hpp"
@@ -43,9 +44,20 @@ Penetration penetration(const Problem& problem, const DisplacementField& w) {
   Penetration result;
   with_degree(displacement_degree(problem, w) - 1, [&](auto k) {
     constexpr int p = k + 1;
+    std::map<int, ContactMotion<p>> motions;  // by row
+    std::map<int, double> at_vertex;          // the least of its edges
     for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
       if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
-      const ContactMotion<p> motion = contact_motion<p>(problem, row, w);
+      const auto& beyond = (motions[row] = contact_motion<p>(problem, row, w)).beyond;
+      for (int end = 0; end < 2; ++end) {
+        const int vertex = problem.mesh.boundary[row].vertices[end];
+        const auto [found, is_new] = at_vertex.try_emplace(vertex, beyond[end * p]);
+        if (!is_new) found->second = std::min(found->second, beyond[end * p]);
+      }
+    }
+    for (auto& [row, motion] : motions) {
+      for (int end = 0; end < 2; ++end)
+        motion.beyond[end * p] = at_vertex.at(problem.mesh.boundary[row].vertices[end]);
       for (int i = 0; i <= p; ++i)
         result.at_nodes_mm = std::max(result.at_nodes_mm,
                                       bernstein_value(motion.beyond, static_cast<double>(i) / p));

@@ -20,7 +20,8 @@ struct ForceViolations {
 ForceViolations force_violations(const ContactPoints& contact, const Eigen::VectorXd& F);
 
 // Largest u_n − g0 > 0 on Γ_C, along each edge's normals; between bodies u_n and g0 are those of
-// both.
+// both. A vertex where two walls meet may be behind one of them, since its law has one normal
+// (control_points.hpp): the smaller u_n − g0 counts, also as the coefficient of both edges.
 struct Penetration {
   double at_nodes_mm = 0;  // at vertices and at p − 1 points of an edge, evenly spaced
   double on_edges_mm = 0;  // anywhere: also an error of the discretisation

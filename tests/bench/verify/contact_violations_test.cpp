@@ -59,6 +59,25 @@ TEST(ContactViolations, ABodyThatStaysInFrontOfTheWallDoesNotPenetrate) {
   EXPECT_EQ(through.share, 0);
 }
 
+// The first vertex of the face lies between walls that stand at 0.2 to each other.
+TEST(ContactViolations, AVertexBetweenTwoWallsCountsForTheNearerToItsLaw) {
+  Problem turned = *at_rest();
+  const int first = contact_row(turned);
+  const int vertex = turned.mesh.boundary[first].vertices[1];
+  turned.contact_normals.resize(turned.mesh.boundary.size());
+  for (int row = 0; row < static_cast<int>(turned.mesh.boundary.size()); ++row)
+    for (int n = 1; n <= ContactNormals::most_parts; ++n)
+      for (int i = 0; i <= n; ++i)
+        turned.contact_normals[row].at(i, n) =
+            Eigen::Vector2d(1, row == first ? 0.2 : -0.2).normalized();
+  DisplacementField w = DisplacementField::Zero(2, displacement_nodes(turned));
+  w.col(vertex) = Eigen::Vector2d(0, 1e-3);  // along both walls' mean: through one of them
+  EXPECT_EQ(penetration(turned, w).at_nodes_mm, 0);
+  EXPECT_EQ(penetration(turned, w).on_edges_mm, 0);
+  w.col(vertex) = Eigen::Vector2d(1e-3, 0);
+  EXPECT_NEAR(penetration(turned, w).at_nodes_mm, 1e-3 / std::hypot(1, 0.2), 1e-15);
+}
+
 // Without displacements of the mesh, the motion of what is prescribed goes through the wall whole.
 TEST(ContactViolations, ARigidMotionThroughTheWallIsRelativeToItself) {
   const auto problem =
