@@ -45,7 +45,11 @@ std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
 }
 
-constexpr std::array<Column, 18> table_columns = {{
+std::string in_unit(const std::optional<double>& value, const char* unit) {
+  return value ? fmt::format("{:.1e} {}", *value, unit) : "-";
+}
+
+constexpr std::array<Column, 23> table_columns = {{
     {"case", nullptr, [](const Record& r) { return name_of(r).text(); }},
     {"n_phi", "n_phi", [](const Record& r) { return whole(r.n_phi); }},
     {"n_c", "siconos_error", [](const Record& r) { return whole(r.n_c); }},
@@ -69,6 +73,15 @@ constexpr std::array<Column, 18> table_columns = {{
     {"Siconos", "siconos_error", [](const Record& r) { return show_error(r.siconos_error); }},
     {"error total", "error_total",
      [](const Record& r) { return show_error(worst_error_total(r)); }},
+    // What bodies solved in displacements are asked.
+    {"penetration", "penetration_mm",
+     [](const Record& r) { return in_unit(r.penetration_mm, "mm"); }},
+    {"between nodes", "penetration_mm",
+     [](const Record& r) { return in_unit(r.edge_penetration_mm, "mm"); }},
+    {"tension", "penetration_mm", [](const Record& r) { return show_error(r.tension); }},
+    {"over friction", "penetration_mm",
+     [](const Record& r) { return show_error(r.friction_excess); }},
+    {"unbalanced", "penetration_mm", [](const Record& r) { return in_unit(r.unbalanced_N, "N"); }},
     {"adapted in", "adapt_time_s", [](const Record& r) { return show_seconds(r.adapt_time_s); }},
     {"status", nullptr, [](const Record& r) { return std::string(name_of(r.status)); }},
 }};
