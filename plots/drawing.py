@@ -28,7 +28,10 @@ STYLE = {"font.size": TYPE, "axes.linewidth": 0.6, "axes.labelsize": TYPE, "axes
          "xtick.labelsize": TYPE, "ytick.labelsize": TYPE, "legend.fontsize": TYPE,
          "grid.color": "0.88", "grid.linewidth": 0.4, "axes.axisbelow": True,
          "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5,
-         "ytick.minor.size": 1.5, "svg.hashsalt": "airybench"}
+         "ytick.minor.size": 1.5, "svg.hashsalt": "airybench",
+         # For publishers: fonts whole in a PDF (TrueType, no Type 3), words of an SVG as curves, which look
+         # the same where the font is missing.
+         "pdf.fonttype": 42, "svg.fonttype": "path"}
 STOP = dict(marker="*", markersize=17, markeredgecolor="black", markeredgewidth=0.8,
             linestyle="none", zorder=7)  # the paper's stop
 HEADROOM = 0.1  # of an axes' height, for arrows without a value
@@ -61,8 +64,14 @@ class Drawing:
 
 
 def write(figure: Figure, path: Path) -> None:
-    metadata = {"Date": None} if path.suffix == ".svg" else {"Software": None}
-    figure.savefig(path, dpi=VECTOR_DPI, metadata=metadata)
+    """The same bytes whenever it is drawn."""
+    metadata = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": {"Software": None}}
+    figure.savefig(path, dpi=VECTOR_DPI, metadata=metadata[path.suffix])
+
+
+def for_papers(figure: Figure, name: str) -> dict[str, Callable[[Path], object]]:
+    """What --vector adds."""
+    return {f"{name}{suffix}": partial(write, figure) for suffix in (".svg", ".pdf")}
 
 
 def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None) -> None:
