@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -74,16 +75,20 @@ def for_papers(figure: Figure, name: str) -> dict[str, Callable[[Path], object]]
     return {f"{name}{suffix}": partial(write, figure) for suffix in (".svg", ".pdf")}
 
 
-def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None) -> None:
-    """In steps of 6/255 of colour, which halves a PNG with shades, or with so many colours."""
+def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None,
+                    kept: Iterable[object] = ()) -> None:
+    """In steps of 6/255 of colour, which halves a PNG with shades, or with so many colours, those `kept`
+    included, however few pixels have them."""
     figure.set_dpi(dpi)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     image = Image.fromarray(STEPS[np.asarray(canvas.buffer_rgba())[..., :3]])
     if colours:  # the commonest as they are, the others as the nearest of them
-        known = sorted(image.getcolors(image.width * image.height), reverse=True)[:colours]
+        common = sorted(image.getcolors(image.width * image.height), reverse=True)
+        known = dict.fromkeys([*(tuple(STEPS[round(255 * part)] for part in to_rgb(colour)) for colour in kept),
+                               *(colour for _, colour in common)])
         palette = Image.new("P", (1, 1))
-        palette.putpalette([value for _, colour in known for value in colour])
+        palette.putpalette([int(value) for colour in list(known)[:colours] for value in colour])
         image = image.quantize(palette=palette, dither=Image.Dither.NONE)
     image.save(path, format="PNG", optimize=True, dpi=(dpi, dpi))
 

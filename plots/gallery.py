@@ -40,12 +40,12 @@ from field_panel import (body_height, contact_points, draw_legend, draw_panel, i
                          label_body, layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
 from load_path import read_path, table_of
-from load_path_drawing import draw_path, frames, frames_of, write_gif
+from load_path_drawing import FIXED, draw_path, frames, frames_of, write_gif
 from words import csv_of, percent, plain, width_of as words_width
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = drawing.STYLE | {"axes.titlesize": 9, "xtick.labelsize": 7, "ytick.labelsize": 7}
-DPI, COLOURS = 120, 200
+DPI = 120
 WIDTH, FOOTER, LINE, ROOT = PAGE_WIDTH, 0.62, 0.15, 0.12  # inches: of words, and more for a root
 BODY = 5.0  # highest body in its own picture
 STRESS = (r"Colour: the largest shear stress in the plane, "
@@ -62,6 +62,7 @@ BODIES = ", in which bodies that touch may cross each other."
 # Pictures of the error: inches, of a map and of levels of a loop.
 LEVELS_DPI = 110
 SHADES = 24  # few, for a small file
+SMALL_PNG = dict(colours=200, kept=[*FIXED, *colormaps["cividis"].resampled(SHADES).colors])
 DECADES = 5  # of the scale of a map at most
 TENTH = 0.1
 HIGHEST, LEFT, RIGHT, TOP, BOTTOM, NARROWEST = 5.0, 0.55, 0.15, 0.62, 0.92, 5.5  # of a map, inches
@@ -237,7 +238,7 @@ def write(figure: Figure, path: Path) -> None:
     if path.suffix == ".svg":
         figure.savefig(path, dpi=120, metadata={"Date": None})
     else:
-        write_small_png(figure, DPI, path, COLOURS)
+        write_small_png(figure, DPI, path, **SMALL_PNG)
 
 
 def save(made: command.Made, name: str, table: str, vector: Figure | None,
@@ -300,14 +301,14 @@ def draw(args: argparse.Namespace) -> None:
             shown = [(*maps[name], records.get(name, {}).get("error_total")) for name in names_of_levels]
             figure = draw_levels(shown, titles)
             save(made, picture, levels_table(shown), figure if args.vector else None,
-                 png=partial(write_small_png, figure, LEVELS_DPI, colours=COLOURS))
+                 png=partial(write_small_png, figure, LEVELS_DPI, **SMALL_PNG))
     for name, (s, share) in maps.items():
         if not share.any():
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
         figure = draw_map(s, share)
         save(made, f"error_map_{name}", map_table(s, share), figure if args.vector else None,
-             png=partial(write_small_png, figure, DPI, colours=COLOURS))
+             png=partial(write_small_png, figure, DPI, **SMALL_PNG))
     draw_paths(args, made, [name for name in names_in(args.results, "steps") if name in names], records)
     if gone := made.remove_others():
         print(f"removed, of other fields: {', '.join(gone)}")
@@ -325,7 +326,7 @@ def draw_paths(args: argparse.Namespace, made: command.Made, names: list[str],
             print(f"load_path_{name}: left out: {path}")
             continue
         figure = draw_path(path)
-        writers = {"png": partial(write_small_png, figure, DPI, colours=COLOURS)}
+        writers = {"png": partial(write_small_png, figure, DPI, **SMALL_PNG)}
         moving = made.folder / f"load_path_{name}.gif"
         if not args.animate and moving.name in made.earlier() and is_newer(
                 moving, args.results / "fields" / f"{name}.steps.csv"):
