@@ -9,6 +9,8 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
+from matplotlib import colormaps
+from PIL import Image
 
 import drawn
 from running import FolderTest, names_in, run, run_command
@@ -16,6 +18,7 @@ from running import FolderTest, names_in, run, run_command
 import field_drawing
 import fields
 import gallery
+from drawing import STEPS
 
 CORNERS = [(0, 0), (2, 0), (2, 2), (0, 2)]  # mm; contact on x = 2, displacement on x = 0
 LOW = [(0, 0), (0.125, 0), (0.125, 2), (0, 2)]  # of a lower body, for smaller pictures
@@ -176,7 +179,11 @@ class GalleryTest(FolderTest):
             write_shares(self.fields, name, [0.25, 0.75])
         with SMALL:
             self.assertEqual(run(gallery, self.results)[::2], (0, ""))
-        self.assertTrue((self.figures / "adapted_degrees.png").exists())
+        with Image.open(self.figures / "adapted_degrees.png") as picture:  # the ends of its scales are kept
+            colours = {colour for _, colour in picture.convert("RGB").getcolors(2**16)}
+        for scale in ("viridis", "cividis"):
+            for end in (0.0, 1.0):
+                self.assertIn(tuple(STEPS[round(255 * part)] for part in colormaps[scale](end)[:3]), colours)
         maps = [(fields.read_fields(self.results, name, {}), np.r_[0.25, 0.75], 0.01) for name in names[1:3]]
         words = drawn.words_of(gallery.draw_levels(maps, ("degree 1", "degree 3")))
         self.assertIn("degree 3\n2 triangles, total error 1 %", words)
