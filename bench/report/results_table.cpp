@@ -15,15 +15,26 @@
 
 namespace airybench {
 
+struct TableColumn {
+  enum class Kind { words, count, seconds, bytes, error };
+  enum class Shown { always, with_field, in_contact_studies, if_chosen };
+  struct Cell {
+    std::optional<double> number;
+    std::string words;  // if there is no number
+  };
+
+  const char* header;
+  Kind kind;
+  Shown shown;
+  const char* field;  // that some record must have; nullptr: none
+  Cell (*cell)(const Record&);
+};
+
 namespace {
 
-enum class CellKind { words, count, seconds, bytes, error };
-enum class Shown { always, with_field, in_contact_studies, if_chosen };
-
-struct Cell {
-  std::optional<double> number;
-  std::string words;  // if there is no number
-};
+using Cell = TableColumn::Cell;
+using CellKind = TableColumn::Kind;
+using Shown = TableColumn::Shown;
 
 Cell amount(const std::optional<double>& value) { return {value, "-"}; }
 Cell whole(const std::optional<std::int64_t>& value) {
@@ -35,18 +46,6 @@ Cell named(std::string text) { return {{}, std::move(text)}; }
 std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
 }
-
-}  // namespace
-
-struct TableColumn {
-  const char* header;
-  CellKind kind;
-  Shown shown;
-  const char* field;  // that some record must have; nullptr: none
-  Cell (*cell)(const Record&);
-};
-
-namespace {
 
 constexpr std::array<TableColumn, 21> table_columns = {{
     {"case", CellKind::words, Shown::always, nullptr,
