@@ -146,10 +146,12 @@ Declaration read_declaration(const std::filesystem::path& file) {
       value.fail("with \"returns\": \"displacement\", above 0, up to 1");
     declaration.allowed_penetration = given;
   };
-  const auto read_weak_contact = [&](const JsonValue& value) {
-    if (declaration.returns != Returns::displacement || !value.json.is_boolean())
-      value.fail("with \"returns\": \"displacement\", true or false");
-    declaration.weak_contact = value.json.get<bool>();
+  const auto flag_of_displacement = [&](bool& flag) {
+    return [&](const JsonValue& value) {
+      if (declaration.returns != Returns::displacement || !value.json.is_boolean())
+        value.fail("with \"returns\": \"displacement\", true or false");
+      flag = value.json.get<bool>();
+    };
   };
   const auto read_parameter = [&](const JsonValue& value) {
     const auto is_positive = [](const Json& one) { return one.is_number() && one > 0; };
@@ -184,7 +186,8 @@ Declaration read_declaration(const std::filesystem::path& file) {
                {"first_tolerance", read_tolerance},
                {"print_precision", read_print_precision},
                {"allowed_penetration", read_allowed_penetration},
-               {"weak_contact", read_weak_contact}});
+               {"weak_contact", flag_of_displacement(declaration.weak_contact)},
+               {"joins_bodies", flag_of_displacement(declaration.joins_bodies)}});
   if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);
   return declaration;
 }

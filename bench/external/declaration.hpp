@@ -27,6 +27,8 @@
 //                    displacement; 1e-3
 //   weak_contact     optional, of displacement: true of a contact law (Nitsche's) that also loads
 //                    inner nodes next to Γ_C; contact forces are then asked for their sum
+//   joins_bodies     optional, of displacement: true if it takes bodies that press on each other
+//                    (contact_opposite)
 #pragma once
 
 #include <array>
@@ -60,7 +62,7 @@ struct Declaration {
   double first_tolerance = 0;
   double print_precision = 0;
   double allowed_penetration = 1e-3;
-  bool weak_contact = false;
+  bool weak_contact = false, joins_bodies = false;
 };
 
 // Excludes globs, lists and parts of paths, so that a user can select the name.

@@ -360,7 +360,10 @@ Method external_method(const Declaration& declaration,
           });
       break;
   }
-  if (declaration.returns != Declaration::Returns::contact_forces) method.stages = {Stage::recover};
+  if (declaration.returns != Declaration::Returns::contact_forces) {
+    method.stages = {Stage::recover};
+    method.joins_bodies = declaration.joins_bodies;
+  }
   method.name = "EXTERNAL:" + declaration.name;
   method.family = method.name.substr(0, method.name.find(":" + declaration.parameter + "="));
   method.summary = declaration.summary;

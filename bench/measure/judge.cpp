@@ -110,9 +110,9 @@ void Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allow
   if (!(v.penetration_share > allowed)) return;
   record.status = Status::inaccurate;
   record.status_reason = fmt::format(
-      "{}penetrates the wall by {:.2g} mm, {:.2g} % of the largest displacement; allowed {:g} %",
-      prefix_of(worst - steps.begin()), *v.penetration_mm, 100 * *v.penetration_share,
-      100 * allowed);
+      "{}penetrates the {} by {:.2g} mm, {:.2g} % of the largest displacement; allowed {:g} %",
+      prefix_of(worst - steps.begin()), problem_->opposite.empty() ? "wall" : "wall or other body",
+      *v.penetration_mm, 100 * *v.penetration_share, 100 * allowed);
 }
 
 void Judge::judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,

@@ -42,9 +42,9 @@ void add_disc(Mesh& mesh, const std::string& body, const Vector2d& centre, doubl
     }
     const double height = std::sin(angle(i + 0.5));
     testing::add_edge(mesh, vertex(i, rings - 1), vertex(i + 1, rings - 1),
-                      height < -0.95 ? "contact:" + body + "_below"
-                      : height > 0.95? "contact:" + body + "_above"
-                                     : "force");
+                      height < -0.95  ? "contact:" + body + "_below"
+                      : height > 0.95 ? "contact:" + body + "_above"
+                                      : "force");
   }
   testing::name_body(mesh, body);
 }

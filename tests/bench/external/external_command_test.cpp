@@ -342,7 +342,8 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
   for (const auto& [key, wrong, right, allowed] :
        {std::tuple("allowed_penetration", Json(0), Json(0.1), "above 0, up to 1"),
         {"allowed_penetration", Json("1 %"), Json(1), "above 0, up to 1"},
-        {"weak_contact", Json(1), Json(true), "true or false"}}) {
+        {"weak_contact", Json(1), Json(true), "true or false"},
+        {"joins_bodies", Json("yes"), Json(true), "true or false"}}) {
     const auto line = [&](const Json& given) {
       return fmt::format("{}: {} (allowed: with \"returns\": \"displacement\", {})", key,
                          given.dump(), allowed);
