@@ -139,11 +139,18 @@ class Matcher {
   bool move(const Near& both) {
     if (!face_[1].fixed.contains(both.second))
       if (const std::optional<Hit> hit = on_second(both.first))
-        return move_to(both.second, place(hit->row, hit->s));
+        return move_along(1, both.second, *hit);
     if (!face_[0].fixed.contains(both.first))
       if (const std::optional<Hit> hit = on_first(both.second))
-        return move_to(both.first, place(hit->row, hit->s));
+        return move_along(0, both.first, *hit);
     return false;
+  }
+  // With the normal that its face has there.
+  bool move_along(int side, int v, const Hit& hit) {
+    const Point n = normal_at(side, hit.row, hit.s);
+    if (!move_to(v, place(hit.row, hit.s))) return false;
+    face_[side].normal[v] = n;
+    return true;
   }
   // Unless a triangle there would lose more than half its area.
   bool move_to(int v, const Point& to) {

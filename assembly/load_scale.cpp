@@ -46,7 +46,7 @@ LoadScale load_scale(const Problem& problem) {
 }
 
 double relative_error(double error, double quantity, double scale) {
-  return error == 0 ? 0 : error / (quantity > 0 ? quantity : scale);
+  return error == 0 ? 0 : error / (is_rounding(quantity, scale) ? scale : quantity);
 }
 
 double larger_error(double one, double other) {

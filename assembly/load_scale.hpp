@@ -12,7 +12,11 @@ struct LoadScale {
 };
 LoadScale load_scale(const Problem& problem);
 
-// error / quantity; error / scale if the quantity is zero; 0 if the error is zero.
+// Of a quantity that would be zero: two bodies that do not touch leave each other without stress,
+// but not without rounding.
+inline bool is_rounding(double quantity, double scale) { return quantity <= 1e-11 * scale; }
+
+// error / quantity; error / scale if the quantity is only rounding; 0 if the error is zero.
 double relative_error(double error, double quantity, double scale);
 
 // NaN if one of them is: an unknown error is the worst.

@@ -40,6 +40,7 @@ def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
 def results_and_out(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="the --out of bench")
     parser.add_argument("--out", type=Path, metavar="DIR", help="default: RESULTS_DIR/figures")
+    parser.add_argument("--vector", action="store_true", help="each figure also as .svg and .pdf")
 
 
 def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:

@@ -2,8 +2,8 @@
 """Draws performance profiles of contact problems, at two precisions.
 
     bench --problem=FOLDER --study=contact --out=RESULTS_DIR
-    contact_profiles.py RESULTS_DIR [--out DIR]     contact_profiles.png and .csv,
-                                                    contact_table.md
+    contact_profiles.py RESULTS_DIR [--out DIR] [--vector]     contact_profiles.png and .csv,
+                                                               contact_table.md
 
 A precision has separate runs that stop there. Of a problem p and a solver s, whose run takes t_ps and leaves
 the error e_ps,
@@ -25,7 +25,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from command import replace_all, results_and_out, run, text_writer
-from drawing import DPI, PAGE_WIDTH, STYLE, log_axis, panel_at, sheet, write_small_png
+from drawing import DPI, PAGE_WIDTH, STYLE, for_papers, log_axis, panel_at, sheet, write_small_png
 from figure.profile import fractions, jumps, ratios
 from records import RecordsError, is_without_body, read_lines
 
@@ -157,8 +157,9 @@ def make(args: argparse.Namespace) -> None:
     with matplotlib.rc_context(STYLE):
         out = args.out or args.results / "figures"
         out.mkdir(parents=True, exist_ok=True)
-        replace_all(out,
-                    {"contact_profiles.png": partial(write_small_png, draw(records), DPI),
+        figure = draw(records)
+        replace_all(out, (for_papers(figure, "contact_profiles") if args.vector else {}) |
+                    {"contact_profiles.png": partial(write_small_png, figure, DPI),
                      "contact_profiles.csv": text_writer(table),
                      "contact_table.md": text_writer(markdown_of(records))})
 

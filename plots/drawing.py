@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -28,7 +29,10 @@ STYLE = {"font.size": TYPE, "axes.linewidth": 0.6, "axes.labelsize": TYPE, "axes
          "xtick.labelsize": TYPE, "ytick.labelsize": TYPE, "legend.fontsize": TYPE,
          "grid.color": "0.88", "grid.linewidth": 0.4, "axes.axisbelow": True,
          "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5,
-         "ytick.minor.size": 1.5, "svg.hashsalt": "airybench"}
+         "ytick.minor.size": 1.5, "svg.hashsalt": "airybench",
+         # For publishers: fonts whole in a PDF (TrueType, no Type 3), words of an SVG as curves, which look
+         # the same where the font is missing.
+         "pdf.fonttype": 42, "svg.fonttype": "path"}
 STOP = dict(marker="*", markersize=17, markeredgecolor="black", markeredgewidth=0.8,
             linestyle="none", zorder=7)  # the paper's stop
 HEADROOM = 0.1  # of an axes' height, for arrows without a value
@@ -61,20 +65,30 @@ class Drawing:
 
 
 def write(figure: Figure, path: Path) -> None:
-    metadata = {"Date": None} if path.suffix == ".svg" else {"Software": None}
-    figure.savefig(path, dpi=VECTOR_DPI, metadata=metadata)
+    """The same bytes whenever it is drawn."""
+    metadata = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": {"Software": None}}
+    figure.savefig(path, dpi=VECTOR_DPI, metadata=metadata[path.suffix])
 
 
-def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None) -> None:
-    """In steps of 6/255 of colour, which halves a PNG with shades, or with so many colours."""
+def for_papers(figure: Figure, name: str) -> dict[str, Callable[[Path], object]]:
+    """What --vector adds."""
+    return {f"{name}{suffix}": partial(write, figure) for suffix in (".svg", ".pdf")}
+
+
+def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None,
+                    kept: Iterable[object] = ()) -> None:
+    """In steps of 6/255 of colour, which halves a PNG with shades, or with so many colours, those `kept`
+    included, however few pixels have them."""
     figure.set_dpi(dpi)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     image = Image.fromarray(STEPS[np.asarray(canvas.buffer_rgba())[..., :3]])
     if colours:  # the commonest as they are, the others as the nearest of them
-        known = sorted(image.getcolors(image.width * image.height), reverse=True)[:colours]
+        common = sorted(image.getcolors(image.width * image.height), reverse=True)
+        known = dict.fromkeys([*(tuple(STEPS[round(255 * part)] for part in to_rgb(colour)) for colour in kept),
+                               *(colour for _, colour in common)])
         palette = Image.new("P", (1, 1))
-        palette.putpalette([value for _, colour in known for value in colour])
+        palette.putpalette([int(value) for colour in list(known)[:colours] for value in colour])
         image = image.quantize(palette=palette, dither=Image.Dither.NONE)
     image.save(path, format="PNG", optimize=True, dpi=(dpi, dpi))
 

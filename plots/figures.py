@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 """Draws the figures of a run from its records.jsonl, or from its results.csv alone.
 
-    figures.py RESULTS_DIR [--out DIR] [--only GLOB,...]
+    figures.py RESULTS_DIR [--out DIR] [--only GLOB,...] [--vector]
 
 The figures are those that the modules figure/*.py plan: each has a function
 drawings(rows), which names them and says which rows they show (../results/README.md lists them).
 table1.md, the paper's Tab. 1 next to the run's sizes, comes with the meshes of the catalogue,
 budget.csv and budget.md, the least error within a time, with an error study. measured.md says how
 the records were measured, in words for a paper. --only draws these of the figures and tables, by
-name or glob, and says nothing of the others.
+name or glob, and says nothing of the others. --vector writes each
+figure also as .svg and .pdf, fonts included.
 
 Figures of an earlier run that these records do not give are removed, unless --only is given; the
 folder's list .airybench.made names what the programs made there.
@@ -27,7 +28,7 @@ import matplotlib
 
 import command
 from documents import documents_of
-from drawing import STYLE, Drawing
+from drawing import STYLE, Drawing, for_papers
 from records import RecordsError, Row, read_run, rows_of
 from selection import grouped
 from words import cases_by_reason
@@ -67,7 +68,7 @@ def selected(only: str | None, names: list[str]) -> list[str]:
     return [name for name in names if any(fnmatchcase(name, glob) for glob in globs)]
 
 
-def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
+def draw_all(rows: list[Row], out: Path, only: str | None = None, vector: bool = False) -> None:
     report, drawn, made = [], [], command.Made(out, "figures")
     writers: dict[str, Callable[[Path], object]] = {}
     drawings, documents = drawings_of(rows), documents_of(rows)
@@ -84,9 +85,11 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
             report.append(f"{drawing.name}: left out: {result}{stays}")
             continue
         drawn += drawing.rows
-        writers |= {drawing.name + suffix: drawing.writer(result, suffix)
-                    for suffix in drawing.suffixes}
-        report.append(f"{out / drawing.name}{', '.join(drawing.suffixes)}: "
+        own = {drawing.name + suffix: drawing.writer(result, suffix) for suffix in drawing.suffixes}
+        own |= for_papers(result, drawing.name) if vector else {}
+        writers |= own
+        suffixes = ", ".join(name.removeprefix(drawing.name) for name in own)
+        report.append(f"{out / drawing.name}{suffixes}: "
                       f"{len(drawing.rows)} cases")
     for name, texts in documents.items():
         if name in names or only is None:
@@ -104,7 +107,8 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
 def draw(args: argparse.Namespace) -> None:
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
-    draw_all(rows_of(read_run(args.results)), args.out or args.results / "figures", args.only)
+    draw_all(rows_of(read_run(args.results)), args.out or args.results / "figures", args.only,
+             args.vector)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -1,14 +1,17 @@
 #!/usr/bin/python3
 """Draws the stress field, the contact points and the error of solutions from `bench --fields`.
 
-    gallery.py RESULTS_DIR [--out DIR] [--each]
+    gallery.py RESULTS_DIR [--out DIR] [--each] [--animate] [--vector]
 
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
 with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
 element map of its discretisation error (NAME.error.csv); adapted_meshes.png where three levels of
-an adaptive loop have one; load_path_NAME.png for every path of load steps (NAME.steps.csv), with
---animate also load_path_NAME.gif, a frame per step with the body in files, at most 60. NAME.csv next to each picture has its numbers. Exit 2: wrong input,
-or a folder that cannot be written; one line says which, and its files stay as they were.
+an adaptive loop have one, adapted_degrees.png where the last levels of two degrees have one;
+load_path_NAME.png for every path of load steps (NAME.steps.csv), with
+--animate also load_path_NAME.gif, a frame per step with the body in files, at most 60 frames and
+1 MB. --vector: each but the GIF also as .svg and .pdf, fonts included. NAME.csv next to each picture
+has its numbers. Exit 2: wrong input, or a folder that cannot be written; one line says which, and
+its files stay as they were.
 """
 import argparse
 import math
@@ -30,19 +33,19 @@ from matplotlib.figure import Figure
 import command
 import drawing
 from case_names import words_of_file
-from drawing import PAGE_WIDTH, axes_at, bar_below, text_at, write_small_png
+from drawing import PAGE_WIDTH, axes_at, bar_below, text_at, for_papers, write_small_png
 from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
                            largest_load, scales_of)
 from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_cut, is_tall,
                          label_body, layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
 from load_path import read_path, table_of
-from load_path_drawing import draw_path, frames, frames_of, write_gif
+from load_path_drawing import FIXED, draw_path, frames, frames_of, write_gif
 from words import csv_of, percent, plain, width_of as words_width
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = drawing.STYLE | {"axes.titlesize": 9, "xtick.labelsize": 7, "ytick.labelsize": 7}
-DPI = 160
+DPI = 120
 WIDTH, FOOTER, LINE, ROOT = PAGE_WIDTH, 0.62, 0.15, 0.12  # inches: of words, and more for a root
 BODY = 5.0  # highest body in its own picture
 STRESS = (r"Colour: the largest shear stress in the plane, "
@@ -57,12 +60,14 @@ WALLS = (". A wall keeps its shape: it meets the outline where the body\ntouches
          "the enlarged outline may cross it.")
 BODIES = ", in which bodies that touch may cross each other."
 # Pictures of the error: inches, of a map and of levels of a loop.
-MAP_DPI, LEVELS_DPI = 120, 110
+LEVELS_DPI = 110
 SHADES = 24  # few, for a small file
+SMALL_PNG = dict(colours=200, kept=[*FIXED, *colormaps["cividis"].resampled(SHADES).colors])
 DECADES = 5  # of the scale of a map at most
 TENTH = 0.1
 HIGHEST, LEFT, RIGHT, TOP, BOTTOM, NARROWEST = 5.0, 0.55, 0.15, 0.62, 0.92, 5.5  # of a map, inches
 LEVEL = re.compile(r"(?P<mesh>.+)~adapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
+OF_DEGREE = re.compile(r"(?P<mesh>.+)~adapt(?P<level>\d+)(k\d)?(?P<case>--.+--HYBRID)(\+k=(?P<degree>\d))?")
 SHOWN, LEVEL_LEFT, GAP, LEVEL_HIGHEST = 3, 0.5, 0.12, 4.2  # of levels, inches
 TITLE, WORDS, BARS = 0.55, 0.34, 0.75
 
@@ -172,15 +177,30 @@ def levels_in(names: list[str]) -> list[str]:
     return []
 
 
-def draw_levels(levels: list[Level]) -> Figure:
+def degrees_in(names: list[str]) -> dict[int, str]:
+    """Degree of the stresses -> last level of its loop, of the first body with two degrees or more."""
+    bodies: dict[tuple[str, str], dict[int, tuple[int, str]]] = {}
+    for name in names:
+        if found := OF_DEGREE.fullmatch(name):
+            last = bodies.setdefault((found["mesh"], found["case"]), {})
+            degree = int(found["degree"] or 1)
+            last[degree] = max(last.get(degree, (0, "")), (int(found["level"]), name))
+    several = next((last for last in bodies.values() if len(last) > 1), {})
+    return {degree: name for degree, (_, name) in sorted(several.items())}
+
+
+def draw_levels(levels: list[Level], titles: tuple[str, ...] = ()) -> Figure:
+    """titles: first line above each."""
     scales = scales_of([levels[-1][0]])  # of the finest
     view = view_of(levels[0][0])
     panel = (PAGE_WIDTH - LEVEL_LEFT - len(levels) * GAP) / len(levels)
     height = panel * slenderness(levels[0][0])
+    above = TITLE + LINE * bool(titles)
     if height > LEVEL_HIGHEST:
         panel, height = panel * LEVEL_HIGHEST / height, LEVEL_HIGHEST
-    figure = Figure(figsize=(PAGE_WIDTH, TITLE + 2 * (height + WORDS) + BARS))
-    text_at(figure, 0.1, 0.08, plain(f"{levels[0][0].mesh.split('+')[0]}, adapted"), fontsize=11,
+    figure = Figure(figsize=(PAGE_WIDTH, above + 2 * (height + WORDS) + BARS))
+    by = ", by the degree of the stresses" if titles else ""
+    text_at(figure, 0.1, 0.08, plain(f"{levels[0][0].mesh.split('+')[0]}, adapted{by}"), fontsize=11,
             weight="bold")
     step = (PAGE_WIDTH - LEVEL_LEFT) / len(levels)
     norm = LogNorm(1e-2, 1e2, clip=True)
@@ -188,11 +208,12 @@ def draw_levels(levels: list[Level]) -> Figure:
     for k, (s, share, error) in enumerate(levels):
         upper, lower = (
             axes_at(figure, LEVEL_LEFT + k * step + (step - GAP - panel) / 2,
-                    TITLE + row * (height + WORDS), panel, height, xlim=view.intervalx,
+                    above + row * (height + WORDS), panel, height, xlim=view.intervalx,
                     ylim=view.intervaly) for row in (0, 1))
         draw_body(upper, s, scales)
         words = f"{len(s.corners)} triangles"
-        upper.set_title(words if error is None else f"{words}, total error {percent(error)}", pad=4)
+        words += f", total error {percent(error)}" if error is not None else ""
+        upper.set_title("\n".join([*titles[k:k + 1], words]), pad=4)
         draw_shares(lower, s, share * len(share), norm, shades, edgecolor="none")
         label_body(upper, x="", y="y, mm" if k == 0 else "")
         label_body(lower, y="y, mm" if k == 0 else "")
@@ -217,18 +238,22 @@ def write(figure: Figure, path: Path) -> None:
     if path.suffix == ".svg":
         figure.savefig(path, dpi=120, metadata={"Date": None})
     else:
-        write_small_png(figure, DPI, path)
+        write_small_png(figure, DPI, path, **SMALL_PNG)
 
 
-def save(made: command.Made, name: str, table: str, **writers: Callable[[Path], object]) -> None:
-    files = {f"{name}.{suffix}": write for suffix, write in writers.items()}
+def save(made: command.Made, name: str, table: str, vector: Figure | None,
+         **writers: Callable[[Path], object]) -> None:
+    files = for_papers(vector, name) if vector else {}
+    files |= {f"{name}.{suffix}": write for suffix, write in writers.items()}
     made.replace(files | {f"{name}.csv": command.text_writer(table)})
     print(*(made.folder / file for file in files), sep="\n")
 
 
-def save_composed(made: command.Made, name: str, rows: list[list[Fields]], *suffixes: str) -> None:
-    save(made, name, contact_points([s for row in rows for s in row]),
-         **dict.fromkeys(suffixes, partial(write, compose(rows))))
+def save_composed(made: command.Made, name: str, rows: list[list[Fields]], vector: bool,
+                  *suffixes: str) -> None:
+    figure = compose(rows)
+    save(made, name, contact_points([s for row in rows for s in row]), figure if vector else None,
+         **dict.fromkeys(suffixes, partial(write, figure)))
 
 
 def choose(names: list[str]) -> list[str] | None:
@@ -264,21 +289,26 @@ def draw(args: argparse.Namespace) -> None:
     made = command.Made(out, "gallery")
     if chosen:
         *teeth, rack = (solutions[name] for name in chosen)
-        save_composed(made, "gallery", [teeth, [rack]], "png", "svg")
+        save_composed(made, "gallery", [teeth, [rack]], args.vector, "png", "svg")
     if args.each or not chosen:
         for name, s in solutions.items():
-            save_composed(made, f"fields_{name}", [[s]], "png")
-    levels = levels_in(list(maps))
-    if levels and all(maps[name][1].any() for name in levels):
-        shown = [(*maps[name], records.get(name, {}).get("error_total")) for name in levels]
-        save(made, "adapted_meshes", levels_table(shown),
-             png=partial(write_small_png, draw_levels(shown), LEVELS_DPI))
+            save_composed(made, f"fields_{name}", [[s]], args.vector, "png")
+    degrees = degrees_in(list(maps))
+    for picture, names_of_levels, titles in (
+            ("adapted_meshes", levels_in(list(maps)), ()),
+            ("adapted_degrees", list(degrees.values()), tuple(f"degree {k}" for k in degrees))):
+        if names_of_levels and all(maps[name][1].any() for name in names_of_levels):
+            shown = [(*maps[name], records.get(name, {}).get("error_total")) for name in names_of_levels]
+            figure = draw_levels(shown, titles)
+            save(made, picture, levels_table(shown), figure if args.vector else None,
+                 png=partial(write_small_png, figure, LEVELS_DPI, **SMALL_PNG))
     for name, (s, share) in maps.items():
         if not share.any():
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
-        save(made, f"error_map_{name}", map_table(s, share),
-             png=partial(write_small_png, draw_map(s, share), MAP_DPI, colours=200))
+        figure = draw_map(s, share)
+        save(made, f"error_map_{name}", map_table(s, share), figure if args.vector else None,
+             png=partial(write_small_png, figure, DPI, **SMALL_PNG))
     draw_paths(args, made, [name for name in names_in(args.results, "steps") if name in names], records)
     if gone := made.remove_others():
         print(f"removed, of other fields: {', '.join(gone)}")
@@ -295,7 +325,8 @@ def draw_paths(args: argparse.Namespace, made: command.Made, names: list[str],
         if isinstance(path, str):
             print(f"load_path_{name}: left out: {path}")
             continue
-        writers = {"png": partial(write_small_png, draw_path(path), DPI, colours=200)}
+        figure = draw_path(path)
+        writers = {"png": partial(write_small_png, figure, DPI, **SMALL_PNG)}
         moving = made.folder / f"load_path_{name}.gif"
         if not args.animate and moving.name in made.earlier() and is_newer(
                 moving, args.results / "fields" / f"{name}.steps.csv"):
@@ -305,7 +336,7 @@ def draw_paths(args: argparse.Namespace, made: command.Made, names: list[str],
                                    name=name, mesh=records.get(name, {}).get("mesh") or
                                    name.partition("--")[0]) for k in frames_of(path)}
             writers["gif"] = partial(write_gif, frames(path, of_steps))
-        save(made, f"load_path_{name}", table_of(path), **writers)
+        save(made, f"load_path_{name}", table_of(path), figure if args.vector else None, **writers)
 
 
 def main() -> None:

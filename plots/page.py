@@ -229,11 +229,11 @@ def hash_of(text: str) -> str:
 
 def figures(folder: Path) -> str:
     shown = []
-    for file in sorted(folder.glob("*.png")):
+    for file in sorted([*folder.glob("*.png"), *folder.glob("*.gif")]):
         name = html.escape(file.stem.replace("_", " "))
         image = base64.b64encode(file.read_bytes()).decode()
         shown.append(f'<figure><button type="button" aria-label="enlarge {name}">'
-                     f'<img alt="{name}" src="data:image/png;base64,{image}"></button>'
+                     f'<img alt="{name}" src="data:image/{file.suffix[1:]};base64,{image}"></button>'
                      f'<figcaption>{name}</figcaption></figure>')
     return "\n".join(shown)
 

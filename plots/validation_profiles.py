@@ -70,6 +70,21 @@ def cattaneo_rows(table: pd.DataFrame) -> list[str]:
     return rows
 
 
+def persson(table: pd.DataFrame) -> tuple[float, np.ndarray, np.ndarray]:
+    """The reach ε of a pin's contact and its pressure p R / P over φ, degrees: docs/validation.md."""
+    clearance, low, high = number(table, "persson", "E* clearance / P"), 1e-3, 1.0
+    for _ in range(60):
+        b = (low + high) / 2
+        found = (2 - np.log1p(b**2) - 2 * b**4) / (np.pi * b**2 * (1 + b**2))
+        low, high = (b, high) if found > clearance else (low, b)
+    reach = 2 * np.arctan(low)
+    phi = reach * np.sin(np.linspace(0, np.pi / 2, 401))
+    y, s = np.tan(phi / 2), np.sqrt(1 + low**2)
+    t = np.sqrt(np.maximum(0, low**2 - y**2))
+    pressure = 2 * t / (np.pi * s * (1 + y**2)) + np.log((s + t) / (s - t)) / (2 * np.pi * (low * s)**2)
+    return np.degrees(reach), np.degrees(phi), pressure
+
+
 def other_rows(table: pd.DataFrame) -> list[str]:
     rows = ["| case | largest deviation |", "|---|---|"]
     for case in sorted(case for case in table.case.unique() if case.startswith("hertz")):
@@ -83,6 +98,21 @@ def other_rows(table: pd.DataFrame) -> list[str]:
     return rows
 
 
+def bodies_rows(table: pd.DataFrame) -> list[str]:
+    rows = ["| case | largest deviation |", "|---|---|"]
+    force, shear, *found = (number(table, "two_cylinders", quantity)
+                            for quantity in ("P", "Q", "a", "p0", "c"))
+    a, p0 = hertz(force)
+    exact = a, p0, a * np.sqrt(1 - shear / (MU * force))
+    worst = max(abs(own / right - 1) for own, right in zip(found, exact))
+    rows.append(f"| two equal cylinders, P = {force:.2f}, Q = {shear:.2f} N/mm: a, p₀, c | "
+                f"{100 * worst:.2f} % |")
+    worst = number(table, "persson", "worst deviation for phi < 0.95 reach")
+    rows.append(f"| pin, touching for \\|φ\\| < {persson(table)[0]:.1f}°: p(φ) over p(0), to 0.95 of it | "
+                f"{100 * worst:.2f} % |")
+    return rows
+
+
 def draw_block(axes: Axes, table: pd.DataFrame) -> None:
     own = of(table, "friction_block", "floor HYBRID")
     axes.plot(own.x_mm, own.value, **OURS, label="HYBRID, every vertex")
@@ -93,10 +123,11 @@ def draw_block(axes: Axes, table: pd.DataFrame) -> None:
              ylabel="tangential displacement, µm")
 
 
-def draw_cattaneo(axes: Axes, table: pd.DataFrame) -> None:
-    force = number(table, "cattaneo_mindlin", "P")
+def draw_cattaneo(axes: Axes, table: pd.DataFrame, case: str = "cattaneo_mindlin",
+                  title: str = "Cattaneo–Mindlin, at a wall") -> None:
+    force = number(table, case, "P")
     a, p0 = hertz(force)
-    c = a * np.sqrt(1 - number(table, "cattaneo_mindlin", "Q") / (MU * force))
+    c = a * np.sqrt(1 - number(table, case, "Q") / (MU * force))
     x = np.linspace(-a, a, 801)
     pressure = p0 * np.sqrt(1 - (x / a)**2)
     stuck = MU * p0 * c / a * np.sqrt(np.maximum(0, 1 - (x / c)**2))
@@ -104,10 +135,22 @@ def draw_cattaneo(axes: Axes, table: pd.DataFrame) -> None:
     axes.plot(x, (MU * pressure - stuck) / MU, **OUTSIDE)
     for quantity, look, scale, label in (("pressure", OURS, 1, "pressure"),
                                          ("shear", OURS_TOO, MU, "shear / µ")):
-        own = of(table, "cattaneo_mindlin", quantity)
+        own = of(table, case, quantity)
         own = own[(own.x_mm.abs() < 1.1 * a)]
         axes.plot(own.x_mm, own.value / scale, **look, label=label)
-    axes.set(title="Cattaneo–Mindlin", xlabel="x, mm", ylabel="traction, MPa")
+    axes.set(title=title, xlabel="x, mm", ylabel="traction, MPa")
+
+
+def draw_two_cylinders(axes: Axes, table: pd.DataFrame) -> None:
+    draw_cattaneo(axes, table, "two_cylinders", "Cattaneo–Mindlin, two bodies")
+
+
+def draw_pin(axes: Axes, table: pd.DataFrame) -> None:
+    _, phi, pressure = persson(table)
+    axes.plot(phi, pressure, **OUTSIDE, label="Persson")
+    own = of(table, "persson", "pressure R / P")
+    axes.plot(own.x_mm, own.value, **OURS, label="mean of every edge")
+    axes.set(title="Pin in a hole", xlabel="φ, degrees", ylabel="p R / P", xlim=(0, 90))
 
 
 def draw_punch(axes: Axes, table: pd.DataFrame) -> None:
@@ -132,9 +175,9 @@ def draw_hertz(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    figure = Figure(figsize=(PAGE_WIDTH, 6), layout="constrained")
-    panels = (draw_block, draw_cattaneo, draw_punch, draw_hertz)
-    for axes, panel in zip(figure.subplots(2, 2).flat, panels):
+    figure = Figure(figsize=(PAGE_WIDTH, 9), layout="constrained")
+    panels = (draw_block, draw_cattaneo, draw_punch, draw_hertz, draw_two_cylinders, draw_pin)
+    for axes, panel in zip(figure.subplots(3, 2).flat, panels):
         panel(axes, table)
         axes.legend(frameon=False, fontsize=7)
         axes.set_ylim(bottom=0)
@@ -149,7 +192,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def make(args: argparse.Namespace) -> None:
     table = read_profiles()
     if args.table:
-        for rows in (block_rows, cattaneo_rows, other_rows):
+        for rows in (block_rows, cattaneo_rows, other_rows, bodies_rows):
             print("\n".join(rows(table)), end="\n\n")
         return
     with matplotlib.rc_context(STYLE):

@@ -100,12 +100,9 @@ const std::vector<Method>& methods() {
   return all;
 }
 
-namespace {
-
-// Commas part the items, but for those inside a general name: "ALM:r=20,rho=32" is one.
-std::vector<std::string> split_selection(std::string_view selection) {
+std::vector<std::string> split_method_list(std::string_view list) {
   std::vector<std::string> items;
-  std::istringstream parts{std::string(selection)};
+  std::istringstream parts{std::string(list)};
   for (std::string part; std::getline(parts, part, ',');) {
     const bool goes_on = part.find('=') != part.npos && part.find(':') == part.npos;
     if (goes_on && !items.empty())
@@ -115,6 +112,8 @@ std::vector<std::string> split_selection(std::string_view selection) {
   }
   return items;
 }
+
+namespace {
 
 std::string valid_names(const std::vector<Method>& table) {
   std::string names;
@@ -131,7 +130,7 @@ std::vector<Method> select_methods(std::string_view selection, const std::vector
   table.insert(table.end(), others.begin(), others.end());
   std::vector<bool> selected(table.size(), false);
   std::vector<Method> more;
-  for (const std::string& item : split_selection(selection)) {
+  for (const std::string& item : split_method_list(selection)) {
     bool matched = false;
     for (std::size_t i = 0; i < table.size(); ++i)
       if (fnmatch(item.c_str(), table[i].name.c_str(), 0) == 0) selected[i] = matched = true;

@@ -30,6 +30,9 @@ Method condensed_contact();
 std::vector<Method> select_methods(std::string_view selection,
                                    const std::vector<Method>& others = {});
 
+// Commas part the items, but for those inside a general name: "ALM:r=20,rho=32" is one.
+std::vector<std::string> split_method_list(std::string_view list);
+
 // "HYBRID", "HYBRID:k=2", …, up to the highest degree of stresses.
 std::string hybrid_of_degree(int degree);
 extern const int highest_degree;

@@ -23,7 +23,7 @@ Other commands (each has --help)
   {bench} claims DIR       the paper's sentences, checked against a results folder
   {bench} compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
   {bench} track            a run that is added to a history and judged
-  {bench} export DIR       records for Google Benchmark's tools, trackers, JUnit
+  {bench} export DIR       tables for papers; records for other trackers, JUnit
   {bench} export-problem   a problem's matrices, for your own solvers
   {bench} merge DIR...     the shards of a run, joined
   {bench} replay RECORD    one recorded case, run again

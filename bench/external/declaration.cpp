@@ -140,6 +140,19 @@ Declaration read_declaration(const std::filesystem::path& file) {
       value.fail("with \"returns\": \"displacement\", above 0, up to 5e-6: six digits");
     declaration.print_precision = given;
   };
+  const auto read_allowed_penetration = [&](const JsonValue& value) {
+    const double given = value.json.is_number() ? value.json.get<double>() : 0;
+    if (declaration.returns != Returns::displacement || !(given > 0 && given <= 1))
+      value.fail("with \"returns\": \"displacement\", above 0, up to 1");
+    declaration.allowed_penetration = given;
+  };
+  const auto flag_of_displacement = [&](bool& flag) {
+    return [&](const JsonValue& value) {
+      if (declaration.returns != Returns::displacement || !value.json.is_boolean())
+        value.fail("with \"returns\": \"displacement\", true or false");
+      flag = value.json.get<bool>();
+    };
+  };
   const auto read_parameter = [&](const JsonValue& value) {
     const auto is_positive = [](const Json& one) { return one.is_number() && one > 0; };
     const Json& given = value.json;
@@ -171,7 +184,10 @@ Declaration read_declaration(const std::filesystem::path& file) {
                required({"command", read_command}),
                command_key("version", version),
                {"first_tolerance", read_tolerance},
-               {"print_precision", read_print_precision}});
+               {"print_precision", read_print_precision},
+               {"allowed_penetration", read_allowed_penetration},
+               {"weak_contact", flag_of_displacement(declaration.weak_contact)},
+               {"joins_bodies", flag_of_displacement(declaration.joins_bodies)}});
   if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);
   return declaration;
 }
@@ -182,6 +198,7 @@ std::vector<Declaration> for_every_value(const Declaration& declaration) {
   std::vector<Declaration> all;
   for (const std::string& value : declaration.values) {
     Declaration one = declaration;
+    one.values = {value};
     for (std::string& word : one.command)
       for (std::size_t at = 0; (at = word.find(own, at)) != word.npos; at += value.size())
         word.replace(at, own.size(), value);

@@ -16,12 +16,19 @@
 //                    empty folder for the answer (answer.hpp). Also {threads}, {tolerance},
 //                    {time_limit_s}
 //   parameter        optional, {"penalty": [5000, 500]}: a program for every value of {penalty} in
-//                    the command; the first has the plain name, others NAME:penalty=500
+//                    the command; the first has the plain name, others NAME:penalty=500.
+//                    Record::parameters begins with it
 //   version          optional, like summary; prints one line
 //   first_tolerance  optional, with {tolerance}: the first tolerance per target error, tightened
 //                    until the program's own error estimate is below the target
 //   print_precision  optional, of displacement: the largest relative rounding of a printed number,
 //                    5e-7 for seven digits. Unbalanced forces that it explains do not count
+//   allowed_penetration  optional, of displacement: u_n − g0 at nodes over the largest
+//                    displacement; 1e-3
+//   weak_contact     optional, of displacement: true of a contact law (Nitsche's) that also loads
+//                    inner nodes next to Γ_C; contact forces are then asked for their sum
+//   joins_bodies     optional, of displacement: true if it takes bodies that press on each other
+//                    (contact_opposite)
 #pragma once
 
 #include <array>
@@ -54,6 +61,8 @@ struct Declaration {
   std::string version = "unknown version";  // printed by its version command
   double first_tolerance = 0;
   double print_precision = 0;
+  double allowed_penetration = 1e-3;
+  bool weak_contact = false, joins_bodies = false;
 };
 
 // Excludes globs, lists and parts of paths, so that a user can select the name.
@@ -62,7 +71,7 @@ bool is_plain_program_name(const std::string& name);
 // Also runs the version command. Throws FileError, one line: file, key, value, what is allowed.
 Declaration read_declaration(const std::filesystem::path& file);
 
-// One for every value of its parameter, with that value in its command.
+// One for every value of its parameter, with that value, its only one, in its command.
 std::vector<Declaration> for_every_value(const Declaration& declaration);
 
 // The program's non-empty lines, shortened: the first, and the last if there are more.

@@ -63,6 +63,8 @@ class ProgramSolve {
   ProgramSolve(const Caller& caller, const std::function<Files()>& problem,
                const RunControl& control) {
     const Declaration& declaration = caller.declaration;
+    if (!declaration.parameter.empty())
+      chosen_ = declaration.parameter + "=" + declaration.values.front();
     hand_over(problem());
     const double limit_s = control.deadline.remaining_s();
     if (!(limit_s > 0)) throw TimeoutReached("time limit reached before the program began");
@@ -132,7 +134,9 @@ class ProgramSolve {
     solution.status = answer_.status;
     solution.message = answer_.status == Status::ok ? "" : answer_.message;
     if (!has_answer(answer_.status) && solution.message.empty()) solution.message = "no message";
-    solution.parameters = answer_.parameters;
+    solution.parameters = chosen_;
+    if (!chosen_.empty() && !answer_.parameters.empty()) solution.parameters += "; ";
+    solution.parameters += answer_.parameters;
     solution.error_estimate.reset();
     if (answer_.error_estimate) judge_by_own_estimate(*answer_.error_estimate, control, solution);
     solution.linear_iterations = answer_.linear_iterations;
@@ -167,6 +171,7 @@ class ProgramSolve {
   std::filesystem::path output_;
   Answer answer_;
   ProgramRun run_;
+  std::string chosen_;  // "penalty=500"
 };
 
 Solution solve_airy(const Caller& caller, const DualSystem& system, const RunControl& control) {
@@ -202,6 +207,8 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
       program.array("displacement_mm.mtx", displacement_nodes(problem), 2);
   Solution solution = program.take_over(control);
   solution.program->print_precision = caller.declaration.print_precision;
+  solution.program->allowed_penetration = caller.declaration.allowed_penetration;
+  solution.program->weak_contact = caller.declaration.weak_contact;
   const StageTimer timer(solution.times, Stage::recover);
   solution.displacement = displacement_of(problem, values);
   solution.stress = stress_of_displacement(problem, solution.displacement);
@@ -255,6 +262,27 @@ void check_components(const Declaration& declaration, int components) {
                              fmt::join(taken, ", ")));
 }
 
+template <typename AnySolve>
+auto with_no_answer(AnySolve solve) {
+  return [solve = std::move(solve)](const auto& problem, const RunControl& control) {
+    const auto failed = [](Status status, const std::string& message) {
+      Solution solution;
+      solution.status = status;
+      solution.message = message;
+      return solution;
+    };
+    try {
+      return solve(problem, control);
+    } catch (const NoAnswer& why) {
+      return failed(why.status, why.what());
+    } catch (const FileError& why) {
+      return failed(Status::breakdown, fmt::format("its answer: {}", why.what()));
+    } catch (const std::system_error& why) {  // no process could be started
+      return failed(Status::machine_fault, why.what());
+    }
+  };
+}
+
 // solve: the method whose contact law the program replaces. body: may be null.
 Solution solve_contact_law(const Caller& caller,
                            const std::function<Solution(const RunControl&)>& solve,
@@ -288,28 +316,13 @@ Solution solve_contact_law(const Caller& caller,
   solution.linear_iterations = linear;
   if (auto& contact_s = solution.times[Stage::contact]; contact_s && solution.program)
     *contact_s -= solution.program->not_solve_s;
+  if (solution.solve_again)  // the next load step
+    solution.solve_again = with_no_answer([caller, again = std::move(solution.solve_again)](
+                                              const DualSystem& s, const RunControl& c) {
+      return solve_contact_law(
+          caller, [&](const RunControl& own) { return again(s, own); }, s.problem.get(), c);
+    });
   return solution;
-}
-
-template <typename AnySolve>
-auto with_no_answer(AnySolve solve) {
-  return [solve = std::move(solve)](const auto& problem, const RunControl& control) {
-    const auto failed = [](Status status, const std::string& message) {
-      Solution solution;
-      solution.status = status;
-      solution.message = message;
-      return solution;
-    };
-    try {
-      return solve(problem, control);
-    } catch (const NoAnswer& why) {
-      return failed(why.status, why.what());
-    } catch (const FileError& why) {
-      return failed(Status::breakdown, fmt::format("its answer: {}", why.what()));
-    } catch (const std::system_error& why) {  // no process could be started
-      return failed(Status::machine_fault, why.what());
-    }
-  };
 }
 
 }  // namespace
@@ -347,9 +360,12 @@ Method external_method(const Declaration& declaration,
           });
       break;
   }
-  if (declaration.returns != Declaration::Returns::contact_forces) method.stages = {Stage::recover};
+  if (declaration.returns != Declaration::Returns::contact_forces) {
+    method.stages = {Stage::recover};
+    method.joins_bodies = declaration.joins_bodies;
+  }
   method.name = "EXTERNAL:" + declaration.name;
-  method.family = method.name;
+  method.family = method.name.substr(0, method.name.find(":" + declaration.parameter + "="));
   method.summary = declaration.summary;
   method.program = declaration.version;
   method.knob =

@@ -60,8 +60,6 @@ JudgedStep Judge::judged(int step, const DualSystem& system, const Solution& sol
   }
   JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
   if (solution.program) {
-    // The program has another discrete law: only the violations in N apply.
-    result.verification.natural_map_residual.reset();
     // A zero stress from the program does not prove that the body has none.
     result.verification.unstressed =
         reference(1, step) != nullptr && reference(1, step)->stress.values().isZero(0);
@@ -99,7 +97,22 @@ void Judge::judge(const Method& method, const std::vector<JudgedStep>& steps,
   take_over(steps.back().seen(), record);
   record.answer_hash = answer_hash(steps.back().seen());
   if (record.status == Status::ok) judge_method_error(method, steps, solution, record);
+  if (record.status == Status::ok && solution.program)
+    judge_penetration(steps, solution.program->allowed_penetration, record);
   if (problem_) judge_discretisation(method, steps, solution, record);
+}
+
+void Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
+                              Record& record) const {
+  const auto worst = std::ranges::max_element(
+      steps, {}, [](const JudgedStep& step) { return step.seen().penetration_share.value_or(0); });
+  const Verification& v = worst->seen();
+  if (!(v.penetration_share > allowed)) return;
+  record.status = Status::inaccurate;
+  record.status_reason = fmt::format(
+      "{}penetrates the {} by {:.2g} mm, {:.2g} % of the largest displacement; allowed {:g} %",
+      prefix_of(worst - steps.begin()), problem_->opposite.empty() ? "wall" : "wall or other body",
+      *v.penetration_mm, 100 * *v.penetration_share, 100 * allowed);
 }
 
 void Judge::judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,

@@ -62,6 +62,9 @@ class Judge {
   std::optional<Verification> verify_as_other_solution(const DualSystem& system,
                                                        const Solution& solution,
                                                        const Verification& v);
+  // Of an external program: through the wall by more than it is allowed is inaccurate.
+  void judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
+                         Record& record) const;
   void judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,
                           const Solution& solution, Record& record);
 

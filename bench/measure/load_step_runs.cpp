@@ -39,6 +39,13 @@ void take_step(bool is_first, const std::string& prefix, const Solution& step, S
   for (const MemoryOwner owner : all_memory_owners)
     path.storage[owner] = std::max(path.storage[owner], step.storage[owner]);
   path.file_bytes = std::max(path.file_bytes, step.file_bytes);
+  if (step.program) {
+    const ProgramRun before = path.program.value_or(ProgramRun{});
+    path.program = step.program;
+    path.program->wall_s += before.wall_s;
+    path.program->not_solve_s += before.not_solve_s;
+    path.program->peak_bytes = std::max(step.program->peak_bytes, before.peak_bytes);
+  }
   for_each(sums, [&](auto member) { add(step.*member, path.*member); });
   for_each(maxima, [&](auto member) { raise(step.*member, path.*member); });
   if (path.parameters.empty()) path.parameters = step.parameters;
@@ -55,6 +62,7 @@ void hand_over(Solution& path, Solution& last) {
   last.storage = path.storage;
   last.file_bytes = path.file_bytes;
   last.parameters = std::move(path.parameters);
+  last.program = std::move(path.program);
   for_each(std::tuple_cat(sums, maxima), [&](auto member) { last.*member = path.*member; });
 }
 

@@ -32,14 +32,14 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
   if (!method.solve)
     return "the problem has a body: HYBRID condenses it, and solves the contact law";
   const bool external = !method.program.empty();
-  if (external && !body->later_steps.empty())
-    return "a path of load steps: other programs are asked for one";
+  if (external && !body->later_steps.empty() && !method.condenses_contact())
+    return "a path of load steps: the next one begins where this one has slipped, which only the "
+           "condensed problem says (allowed: programs that read it)";
   if (external && method.condenses_contact() && mesh_sizes(body->mesh).contact_edges == 0)
     return "no contact boundary: nothing is left for the program";
-  if (!body->opposite.empty() && external && !method.condenses_contact())
-    return "bodies in contact with each other: other programs get one body, or the condensed law";
   if (!body->opposite.empty() && !method.joins_bodies)
-    return "bodies in contact with each other: its active sets hold edges at walls only";
+    return external ? "bodies in contact with each other: its declaration does not say joins_bodies"
+                    : "bodies in contact with each other: its active sets hold edges at walls only";
   if (!body->free.motions.empty() && (external || !method.condenses_contact()))
     return "a body that contact alone holds: its motion is found by methods of ours that condense "
            "on the contact points";

@@ -3,113 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <sstream>
 
-#include "bench/records/robust.hpp"
-#include "bench/records/summary.hpp"
 #include "support/seconds_since.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
-
-namespace {
-
-std::string imprecise_line(const Record& r) {
-  const std::optional<double> uncertainty = median_uncertainty(r.samples_s);
-  return fmt::format("{}: time known to ± {}, not {:g} %, after {} repetitions\n",
-                     name_of(r).text(),
-                     uncertainty ? fmt::format("{:.2g} %", 100 * *uncertainty) : "?",
-                     100 * *r.precision, r.samples_s.size());
-}
-
-std::string noisy_line(const Record& r) {
-  return fmt::format("{}: noise {:.1f} % around the least noisy of {} attempts, not {:g} %\n",
-                     name_of(r).text(), 100 * *r.noise_share, *r.noise_attempts,
-                     100 * *r.retry_noisy);
-}
-
-struct Column {
-  const char* header;
-  const char* field;  // shown if any record has it; nullptr: always shown
-  std::string (*text)(const Record&);
-  bool of_contact_study = false;
-};
-
-std::string whole(const std::optional<std::int64_t>& number) {
-  return number ? fmt::format("{}", *number) : "-";
-}
-
-// Time without the method's own error check and refinement.
-std::optional<double> unchecked_s(const Record& r) {
-  return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
-}
-
-constexpr std::array<Column, 18> table_columns = {{
-    {"case", nullptr, [](const Record& r) { return name_of(r).text(); }},
-    {"n_phi", "n_phi", [](const Record& r) { return whole(r.n_phi); }},
-    {"n_c", "siconos_error", [](const Record& r) { return whole(r.n_c); }},
-    {"W", "contact_matrix", [](const Record& r) { return r.contact_matrix; }},
-    {"time", nullptr, [](const Record& r) { return show_seconds(r.time_s); }},
-    {"±", nullptr,
-     [](const Record& r) { return r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s); }},
-    {"contact law", "stage_contact_s",
-     [](const Record& r) { return show_seconds(r.stage_contact_s); }, true},
-    {"unchecked", "stage_check_s", [](const Record& r) { return show_seconds(unchecked_s(r)); }},
-    {"heap", nullptr, [](const Record& r) { return show_bytes(r.peak_heap_bytes); }},
-    {"program", "program_s", [](const Record& r) { return show_seconds(r.program_s); }},
-    {"its memory", "program_s",
-     [](const Record& r) {
-       return show_bytes(r.program.empty() ? std::optional<std::int64_t>() : r.peak_rss_bytes);
-     }},
-    {"error stress", "n_phi", [](const Record& r) { return show_error(r.error_stress); }},
-    {"error force", "n_phi", [](const Record& r) { return show_error(r.error_force); }},
-    {"natural map", "siconos_error",
-     [](const Record& r) { return show_error(r.natural_map_residual); }},
-    {"Siconos", "siconos_error", [](const Record& r) { return show_error(r.siconos_error); }},
-    {"error total", "error_total",
-     [](const Record& r) { return show_error(worst_error_total(r)); }},
-    {"adapted in", "adapt_time_s", [](const Record& r) { return show_seconds(r.adapt_time_s); }},
-    {"status", nullptr, [](const Record& r) { return std::string(name_of(r.status)); }},
-}};
-}  // namespace
-
-void ResultsTable::add(const Record& r) {
-  const auto has = [&](const char* field) { return !field_named(field).value(r).is_null(); };
-  for (const Column& column : table_columns)
-    if (column.field != nullptr && has(column.field)) fields_.insert(column.field);
-  if (worst_error_total(r)) fields_.insert("error_total");  // of a path, whose last step has none
-  shows_contact_law_ = shows_contact_law_ || r.study == "contact";
-  std::string row;
-  for (const Column& column : table_columns) row += column.text(r) + "\t";
-  row.shrink_to_fit();
-  rows_.push_back(std::move(row));
-  if (r.precision && !r.precision_reached && r.time_s) imprecise_ += imprecise_line(r);
-  if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) noisy_ += noisy_line(r);
-  if (r.status != Status::ok)
-    reasons_ += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);
-  else if (const std::string line = fmt::format("{}/{}: {}\n", r.mesh, r.scene, r.status_reason);
-           !r.status_reason.empty() && !r.other_solution && said_.insert(line).second)
-    reasons_ += line;
-}
-
-std::string ResultsTable::text() const {
-  const auto is_shown = [&](const Column& column) {
-    return (column.field == nullptr || fields_.contains(column.field)) &&
-           (!column.of_contact_study || shows_contact_law_);
-  };
-  std::vector<std::vector<std::string>> shown(1);
-  for (const Column& column : table_columns)
-    if (is_shown(column)) shown.front().emplace_back(column.header);
-  for (const std::string& row : rows_) {
-    std::istringstream cells(row);
-    std::string cell;
-    shown.emplace_back();
-    for (const Column& column : table_columns)
-      if (std::getline(cells, cell, '\t') && is_shown(column)) shown.back().push_back(cell);
-  }
-  return aligned_table(shown, 1) + imprecise_ + noisy_ + reasons_;
-}
 
 namespace {
 

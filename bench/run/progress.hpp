@@ -1,4 +1,4 @@
-// Output for the user: a line per case during the run, and the final table.
+// Output for the user during a run: a line per case, and the time left.
 #pragma once
 
 #include <chrono>
@@ -13,19 +13,6 @@
 #include "bench/report/prediction.hpp"
 
 namespace airybench {
-
-class ResultsTable {
- public:
-  void add(const Record& record);
-  std::string text() const;
-
- private:
-  std::vector<std::string> rows_;   // the cells of all columns, each ended by a tab
-  std::set<std::string> fields_;    // that some record has
-  bool shows_contact_law_ = false;  // its time: where contact solvers are compared
-  std::string imprecise_, noisy_, reasons_;
-  std::set<std::string> said_;  // reasons that all methods on a mesh share
-};
 
 // Seconds that each case takes by earlier records; empty: unknown.
 std::vector<std::optional<double>> expected_seconds(const Forecast& forecast);

@@ -6,6 +6,7 @@
 
 #include "assembly/bernstein.hpp"
 #include "assembly/edge_forces.hpp"
+#include "bench/verify/along_contact.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
 
@@ -71,32 +72,6 @@ std::optional<Bracket> resultant(const Problem& problem, const StressField& mean
     work += stress_product(problem, t, mean, strained);
   const double half = error * std::sqrt(stress_norm_squared(problem, strained));
   return Bracket{work - half, work + half};
-}
-
-// Bernstein coefficients along an edge; one more than stresses have, for their integral.
-using AlongEdge =
-    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, highest_stress_degree + 2>;
-
-struct LargestValue {
-  double value = -std::numeric_limits<double>::infinity();
-  double s = 0;  // where: from 0 to 1
-};
-
-// Of the edge and of what is known already. The values of a part lie below its largest coefficient,
-// and the error of that falls with the square of its length.
-LargestValue largest_value(const AlongEdge& c, LargestValue known = {}, double start = 0,
-                           double length = 1) {
-  constexpr double rounding = 1e-12, shortest = 1e-6;
-  const auto consider = [&](double value, double s) {
-    if (value > known.value) known = {value, s};
-  };
-  consider(c(0), start);
-  consider(c(c.size() - 1), start + length);
-  if (length < shortest || c.maxCoeff() <= known.value + rounding * c.cwiseAbs().maxCoeff())
-    return known;
-  const auto [left, right] = halved(c);
-  known = largest_value(left, known, start, length / 2);
-  return largest_value(right, known, start + length / 2, length / 2);
 }
 
 struct LargestPressure {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/verify/contact_violations.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/condensed.hpp"
@@ -52,11 +53,6 @@ double friction_coupling(const ContactPoints& contact, Block block) {
   return coupling;
 }
 
-double tangential_force(const ContactPoints& contact, const Eigen::VectorXd& F, int point) {
-  const int m = contact.components;
-  return F.segment(m * point + 1, m - 1).norm();
-}
-
 }  // namespace
 
 std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
@@ -88,12 +84,20 @@ void note_contact_forces(const ContactPoints& all, const Eigen::VectorXd& F_all,
     normal += F(m * p);
     if (m == 2) tangential += F(m * p + 1);
   }
+  result.normal_resultant_N = normal;
+  if (m < 3) result.tangential_resultant_N = tangential;  // in space tangents are arbitrary
+  const ForceViolations violations = force_violations(contact, F);
+  result.tension = violations.tension;
+  if (m > 1) result.friction_excess = violations.friction_excess;
+  note_contact_states(contact, F, result);
+}
+
+void note_contact_states(const ContactPoints& contact, const Eigen::VectorXd& F,
+                         Verification& result) {
   const std::vector<ContactState> states = contact_states(contact, F);
   const auto count = [&](ContactState state) {
     return static_cast<int>(std::count(states.begin(), states.end(), state));
   };
-  result.normal_resultant_N = normal;
-  if (m < 3) result.tangential_resultant_N = tangential;  // in space tangents are arbitrary
   result.n_open = count(ContactState::open);
   result.n_stick = count(ContactState::stick);
   result.n_slip = count(ContactState::slip);

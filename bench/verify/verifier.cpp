@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
 #include "assembly/rough_compliance.hpp"
+#include "bench/verify/contact_violations.hpp"
 #include "solvers/base/dense_products.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "support/sha256.hpp"
@@ -103,33 +103,29 @@ ForcesOnEdge walked(const Problem& problem, const EdgeBalance& balance, int row)
   return a < b ? ForcesOnEdge(sum) : ForcesOnEdge(sum.rowwise().reverse());
 }
 
-// The largest difference of a force and its reaction on another body, N.
-double not_transmitted(const ContactPoints& contact, const Eigen::VectorXd& F) {
-  const int m = contact.components;
-  double largest = 0;
-  for (int p = 0; p < contact.count; ++p)
-    if (const int q = contact.opposite_of(p); q > p)
-      largest =
-          std::max(largest, (F.segment(m * p, m) - F.segment(m * q, m)).cwiseAbs().maxCoeff());
-  return largest;
-}
-
-double equilibrium_residual(const DualSystem& system, const Solution& solution,
-                            const EdgeBalance& balance, const LoadScale& scale) {
+void note_equilibrium(const DualSystem& system, const Solution& solution,
+                      const EdgeBalance& balance, const LoadScale& scale, Verification& result) {
   const Problem& problem = *system.problem;
   const Mesh& mesh = problem.mesh;
   const int degree = balance.points - 1;
   double unbalanced = std::max(balance.interior, not_transmitted(system.contact, solution.F_C));
   std::vector<bool> on_boundary(static_cast<std::size_t>(problem.edges.count()), false);
+  Eigen::Vector2d resultant(0, 0);  // of loads, contact forces and reactions
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    resultant += problem.area_mm2(t) * problem.loads.body_force_N_per_mm3;
   int point = 0;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     on_boundary[problem.edges.of_boundary[row]] = true;
     const BoundaryRole role = mesh.boundary[row].role;
-    if (role == BoundaryRole::displacement && !problem.is_roller(row)) continue;
+    const ForcesOnEdge on = walked(problem, balance, row);
+    if (role == BoundaryRole::displacement && !problem.is_roller(row)) {
+      resultant += on.rowwise().sum();
+      continue;
+    }
     const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
                &b = mesh.vertices[mesh.boundary[row].vertices[1]];
     const EdgeFrame frame = edge_frame(a, b);
-    ForcesOnEdge off = walked(problem, balance, row);
+    ForcesOnEdge off = on;
     if (role == BoundaryRole::force && problem.loads.traction_MPa) {
       const Eigen::Vector2d start = problem.loads.traction_MPa(a, frame.normal, row),
                             end = problem.loads.traction_MPa(b, frame.normal, row);
@@ -146,11 +142,13 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
     if (problem.is_roller(row))  // its normal force is free
       off = (frame.tangent * (frame.tangent.transpose() * off)).eval();
     unbalanced = std::max(unbalanced, off.cwiseAbs().maxCoeff());
+    resultant += (on - off).rowwise().sum();
   }
   for (int edge = 0; edge < problem.edges.count(); ++edge)
     if (!on_boundary[edge])
       unbalanced = std::max(unbalanced, balance.of(edge).cwiseAbs().maxCoeff());
-  return relative_error(unbalanced, balance.largest, scale.force_N);
+  result.equilibrium_residual = relative_error(unbalanced, balance.largest, scale.force_N);
+  result.unbalanced_N = resultant.norm();
 }
 
 // ∫_{Γ_D} u0·σn.
@@ -256,7 +254,7 @@ Verification verify(const DualSystem& system, const Solution& solution,
   Verification result;
   const EdgeBalance balance = edge_balance(problem, solution.stress);
   const LoadScale scale = load_scale(problem);
-  result.equilibrium_residual = equilibrium_residual(system, solution, balance, scale);
+  note_equilibrium(system, solution, balance, scale, result);
   result.strain_energy_Nmm = stress_norm_squared(problem, solution.stress) / 2;
   result.complementary_energy_Nmm = result.strain_energy_Nmm -
                                     work_of_prescribed_displacement(problem, balance) -
@@ -272,107 +270,6 @@ Verification verify(const DualSystem& system, const Solution& solution,
   if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
   if (reference == nullptr && solution.edge_moments.cols() > 0)
     verify_moments(system, solution, scale, result);
-  return result;
-}
-
-namespace {
-
-// A program's force without friction may have any direction between the normals of the two edges of
-// a vertex, and between those of the wall and of the face: its law need not have the wall's, or
-// their mean n, and its nodal forces, in Bernstein coefficients, have another direction. What
-// remains of the force's part t ⊥ n: max(0, |t| − |F_n| tan α), α from n to the farthest of an
-// edge's normals.
-double beyond_both_normals(const Problem& problem, const ControlPoints& control, int p, double F_n,
-                           double t) {
-  const int row = control.law.boundary[p];
-  const std::array<int, 3> nodes = boundary_nodes(problem, row);
-  const auto k = std::ranges::find(nodes, control.node[p]) - nodes.begin();
-  const auto tangent_to = [&](const Eigen::Vector2d& normal) {
-    const Eigen::Vector2d seen = control.frame(p).transpose() * normal;
-    return std::abs(seen.y() / seen.x());
-  };
-  const auto [a, b] = problem.mesh.boundary[row].vertices;
-  const double widest =
-      std::max(tangent_to(problem.frame_at(row, static_cast<int>(k), 2).normal),
-               tangent_to(edge_frame(problem.mesh.vertices[a], problem.mesh.vertices[b]).normal));
-  return std::max(0.0, std::abs(t) - std::max(0.0, -F_n) * widest);
-}
-
-// What rounding of a program's printed numbers u to (1 ± ε) u can do to nodal forces: Σ |K| ε|u|.
-// The middle of an edge, of the coefficient c, is m = (a + 2c + b)/4, so c = 2m − (a + b)/2.
-Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementField& w,
-                                    double precision) {
-  const DisplacementField u = with_rigid_motion(problem, w);
-  Eigen::Matrix2Xd off = u.cwiseAbs();
-  const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
-  for (int edge = 0; edge < problem.edges.count(); ++edge) {
-    const auto [a, b] = problem.edges.vertices[edge];
-    const Eigen::Vector2d middle = (u.col(a) + 2 * u.col(vertices + edge) + u.col(b)) / 4;
-    off.col(vertices + edge) = 2 * middle.cwiseAbs() + (off.col(a) + off.col(b)) / 2;
-  }
-  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
-  Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, off.cols());
-  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const auto K = DisplacementTriangle<2>::stiffness(TriangleShape(problem.vertices_of(t)),
-                                                      elasticity[problem.mesh.triangle_body[t]]);
-    const std::array<int, 6> nodes = triangle_nodes(problem, t);
-    Eigen::Matrix<double, 2, 6> own;
-    for (int m = 0; m < 6; ++m) own.col(m) = off.col(nodes[m]);
-    const Eigen::Matrix<double, 2, 6> of_triangle = (K.cwiseAbs() * own.reshaped()).reshaped(2, 6);
-    for (int m = 0; m < 6; ++m) force.col(nodes[m]) += precision * of_triangle.col(m);
-  }
-  return force;
-}
-
-}  // namespace
-
-Verification verify_displacement(const DualSystem& system, const Solution& solution) {
-  const Problem& problem = *system.problem;
-  const int degree = system.degree + 1;
-  const ControlPoints control = control_points(problem, degree);
-  const int m = control.law.components;
-  const LoadScale scale = load_scale(problem);
-  const StressField stress = stress_of_displacement(problem, solution.displacement);
-  NodalForces balance = nodal_forces(problem, stress);
-  balance.sum -= nodal_loads(problem, degree);
-
-  Eigen::VectorXd displacement(control.law.size());
-  for (int p = 0; p < control.law.count; ++p) {
-    const Eigen::Matrix2d frame = control.frame(p);
-    const int node = control.node[p];
-    for (int k = 0; k < m; ++k) {
-      const bool held = k == 1 && control.on_roller[p];
-      displacement(m * p + k) = held ? 0 : frame.col(k).dot(solution.displacement.col(node));
-      balance.sum.col(node) -= solution.F_C(m * p + k) * frame.col(k);
-    }
-    if (m == 1 && solution.program && !control.on_roller[p]) {
-      const Eigen::Vector2d t = frame.col(1);
-      const double off = t.dot(balance.sum.col(node));
-      const double beyond = beyond_both_normals(problem, control, p, solution.F_C(p), off);
-      balance.sum.col(node) += (std::copysign(beyond, off) - off) * t;
-    }
-  }
-  const PrescribedDisplacement prescribed = prescribed_displacement(problem, degree);
-  for (const auto& [node, n] : prescribed.normal)  // the roller's reaction
-    balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
-  if (solution.program && solution.program->print_precision > 0)
-    balance.sum = (balance.sum.cwiseAbs() - forces_of_rounding(problem, solution.displacement,
-                                                               solution.program->print_precision))
-                      .cwiseMax(0.0);
-  double unbalanced = not_transmitted(control.law, solution.F_C);
-  for (std::size_t node = 0; node < prescribed.at.size(); ++node)
-    if (!prescribed.at[node])
-      unbalanced = std::max(unbalanced, balance.sum.col(node).cwiseAbs().maxCoeff());
-
-  Verification result;
-  result.equilibrium_residual = relative_error(unbalanced, balance.largest, scale.force_N);
-  result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;
-  result.unstressed = result.strain_energy_Nmm == 0;
-  if (control.law.count > 0) {
-    note_contact_forces(control.law, solution.F_C, result);
-    note_contact_law(control.law, solution.F_C, displacement,
-                     rough_compliance(problem, control.law), scale, result);
-  }
   return result;
 }
 

@@ -44,6 +44,10 @@ struct Verification {
   // Largest μ|D_nt| / D_nn of a contact point. From 1 on the law may have several solutions.
   std::optional<double> friction_coupling;
   std::optional<double> siconos_error;  // without a body
+  // contact_violations.hpp; penetration is known of displacements.
+  std::optional<double> penetration_mm, edge_penetration_mm, penetration_share;
+  std::optional<double> tension, friction_excess;
+  std::optional<double> unbalanced_N;  // |Σ loads + contact forces + reactions on Γ_D|
 };
 
 // reference: may be null; then edge moments, if any, and ρ = 1/rough_compliance check the law.
@@ -56,6 +60,9 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 //                         without friction may be between the normals of two edges at their vertex,
 //                         or of wall and face; less what rounding to its print_precision explains
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance
+//   n_open, n_stick, n_slip  of a program from trial forces F − ρ r: its F_n is seldom exactly 0
+// A program's weak contact law (ProgramRun::weak_contact) also loads inner nodes of the triangles
+// along Γ_C. What is unbalanced there is part of the resultants.
 Verification verify_displacement(const DualSystem& system, const Solution& solution);
 
 // For a contact problem without a body: the contact law, and the measure that Siconos stops on
@@ -78,9 +85,11 @@ MomentsCheck check_moments(const DualSystem& system, const Eigen::MatrixXd& edge
 double work_of_prescribed(const DualSystem& system, const StressField& stress,
                           const Eigen::VectorXd& F_C);
 
-// The parts of verify(): resultants and states of F; violation of the law by F and u_C with ρ =
-// 1/D_diagonal; both with D, plus the friction coupling.
+// The parts of verify(): resultants, violations and states of F; states alone; violation of the law
+// by F and u_C with ρ = 1/D_diagonal; all with D, plus the friction coupling.
 void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
+                         Verification& result);
+void note_contact_states(const ContactPoints& contact, const Eigen::VectorXd& F,
                          Verification& result);
 void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
                       const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,

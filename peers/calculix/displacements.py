@@ -2,7 +2,8 @@
 
     displacements.py penalty|mortar STIFFNESS THREADS INPUT OUTPUT
 
-Every contact edge has a wall element, which stands off by its gap. Penetration is resisted by
+Every contact edge at a wall has a wall element, which stands off by its gap; those of two bodies press on
+each other where they are. Penetration is resisted by
 STIFFNESS E/L, in MPa per mm, E of the stiffest body and L the longer side of all; sliding by a
 tenth of it, with mortar by as much. CalculiX's tolerances suit steel of 10 mm: E and L become
 these, and loads and gaps so small that they turn no normal. Mortar takes no triangles, so the body
@@ -19,7 +20,7 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from answer import write_answer  # noqa: E402
-from constraints import boundary_nodes, held_nodes, loads, sides_of, triangle_nodes  # noqa: E402
+from constraints import boundary_nodes, held_nodes, loads, opposite_of, sides_of, triangle_nodes  # noqa: E402
 
 STEEL_MPA, LENGTH_MM, STRAIN = 2e5, 10, 1e-6
 HEIGHTS = 0.0, 1.0, 0.5  # of the layers of nodes; middles of edges have none half-way
@@ -90,13 +91,19 @@ def support_cards(held, vertices, layer, layers, reference):
     return fixed, equations
 
 
-def contact_cards(problem, sides, faces, walls, mortar, stiffness):
-    """Faces and walls of the contact sides, as (element, face); a pair for every friction."""
-    friction, lines = problem["friction"][sides], []
-    for k, mu in enumerate(np.unique(friction)):
-        of_group = np.flatnonzero(friction == mu)
-        lines += [card(f"SURFACE, NAME=edges{k}", [faces[i] for i in of_group]),
-                  card(f"SURFACE, NAME=walls{k}", [walls[i] for i in of_group]),
+def contact_cards(problem, sides, face, wall_face, mortar, stiffness):
+    """face: of the body at a side, as (element, face); a pair for every friction and two bodies, or a wall."""
+    groups, lines = {}, []
+    for side in sides:
+        other = opposite_of(problem, side)
+        if other < 0:
+            groups.setdefault((problem["friction"][side], -1, -1), []).append((face(side), wall_face[side]))
+        elif side < other:
+            bodies = (problem["triangle_body"][face(s)[0] - 1] for s in (side, other))
+            groups.setdefault((problem["friction"][side], *bodies), []).append((face(side), face(other)))
+    for k, ((mu, *_), faces) in enumerate(groups.items()):
+        first, second = zip(*faces)
+        lines += [card(f"SURFACE, NAME=edges{k}", first), card(f"SURFACE, NAME=walls{k}", second),
                   card(f"SURFACE INTERACTION, NAME=law{k}"),
                   card("SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", [(stiffness,)])]
         if mu > 0:
@@ -104,6 +111,19 @@ def contact_cards(problem, sides, faces, walls, mortar, stiffness):
         lines.append(card(f"CONTACT PAIR, INTERACTION=law{k}, TYPE={'MORTAR' if mortar else 'SURFACE TO SURFACE'}",
                           [(f"edges{k}", f"walls{k}")]))
     return lines
+
+
+def refuse_bodies_apart(problem):
+    """CalculiX measures gaps of bodies in the mesh, and loads are made small here: none must be left."""
+    x, ends = problem["vertices_mm"], problem["boundary"]
+    for side in sides_of(problem, "contact"):
+        other = opposite_of(problem, side)
+        if other <= side:
+            continue
+        off = max(np.abs(x[ends[other][::-1]] - x[ends[side]]).max(), np.abs(problem["gap_mm"][[side, other]]).max())
+        if off > 1e-9 * np.ptp(x, axis=0).max():
+            raise Refused(f"faces of bodies that are {off:.1e} mm apart, or stand for a curve (allowed: that touch in "
+                          "the mesh)")
 
 
 def refuse_for_mortar(problem, contact, sides, load):
@@ -125,7 +145,8 @@ def deck(problem, mortar, stiffness):
     load = loads(problem, np.arange(len(x)), sides, 2 * len(x)).reshape(-1, 2)
     if mortar:
         refuse_for_mortar(problem, contact, sides, load)
-    every = np.vstack([x, *(wall(problem, side, x[sides[side]]) for side in contact)])
+    at_walls = [side for side in contact if opposite_of(problem, side) < 0]
+    every = np.vstack([x, *(wall(problem, side, x[sides[side]]) for side in at_walls)])
     layer, heights = (len(every), HEIGHTS) if mortar else (0, HEIGHTS[:1])
     of_body, of_wall, section = ("C3D15", "C3D20", []) if mortar else ("CPE6", "CPE8", [(1.0,)])
     first_face = 3 if mortar else 1
@@ -139,17 +160,17 @@ def deck(problem, mortar, stiffness):
                   card(f"MATERIAL, NAME=body{body}"), card("ELASTIC", [elastic(compliance)]),
                   card(f"SOLID SECTION, ELSET=body{body}, MATERIAL=body{body}", section)]
     fixed = [("all", 3, 3)] if mortar else []
-    if len(contact):
-        nodes = len(x) + np.arange(8 * len(contact)).reshape(-1, 8)
-        elements = len(triangles) + 1 + np.arange(len(contact))
+    elements = len(triangles) + 1 + np.arange(len(at_walls))
+    if at_walls:
+        nodes = len(x) + np.arange(8 * len(at_walls)).reshape(-1, 8)
         lines += [card(f"ELEMENT, TYPE={of_wall}, ELSET=walls", [(k, *element(of_k, 4, layer))
                                                                  for k, of_k in zip(elements, nodes)]),
                   card("SOLID SECTION, ELSET=walls, MATERIAL=body0", section)]
         fixed += [(n, 1, 2) for of_k in nodes for n in element(of_k, 4, layer)]
-        face = {frozenset(ends): (t + 1, f"S{first_face + k}") for t, abc in enumerate(problem["triangles"].tolist())
-                for k, ends in enumerate(zip(abc, abc[1:] + abc[:1]))}
-        lines += contact_cards(problem, contact, [face[frozenset(problem["boundary"][s].tolist())] for s in contact],
-                               [(k, f"S{first_face}") for k in elements], mortar, stiffness)
+    face = {frozenset(ends): (t + 1, f"S{first_face + k}") for t, abc in enumerate(problem["triangles"].tolist())
+            for k, ends in enumerate(zip(abc, abc[1:] + abc[:1]))}
+    lines += contact_cards(problem, contact, lambda side: face[frozenset(problem["boundary"][side].tolist())],
+                           {side: (k, f"S{first_face}") for side, k in zip(at_walls, elements)}, mortar, stiffness)
     last = len(heights) * len(every)
     held, equations = support_cards(held_nodes(problem, sides), len(vertices), layer, len(heights), last)
     lines += [card("NODE", [(n, 0.0, 0.0, 0.0) for n, *_ in held if n > last]), *equations,
@@ -185,8 +206,10 @@ def solve(problem, mortar, stiffness, threads):
 
 if __name__ == "__main__":
     _, way, stiffness, threads, folder, output = sys.argv
-    problem, unit = in_its_units(dict(np.load(Path(folder, "problem.npz"))))
+    problem = dict(np.load(Path(folder, "problem.npz")))
     try:
+        refuse_bodies_apart(problem)
+        problem, unit = in_its_units(problem)
         u, printed = solve(problem, way == "mortar", float(stiffness) * STEEL_MPA / LENGTH_MM, threads)
     except Refused as why:
         write_answer(output, {}, status="skipped", message=str(why), time_s=0)

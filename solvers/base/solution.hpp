@@ -39,7 +39,9 @@ struct ProgramRun {
   double not_solve_s = 0;       // part of our time that its own clock leaves out: start-up, files
   std::int64_t peak_bytes = 0;  // resident, of it and its child processes
   double print_precision = 0;   // largest relative rounding of its numbers; 0: of doubles
-  std::string log;              // its log for the reader
+  double allowed_penetration = 0;  // of its displacements, relative to the largest
+  bool weak_contact = false;       // its contact law also loads inner nodes next to Γ_C
+  std::string log;                 // its log for the reader
 };
 
 // Wall clock of an iteration's pieces, in whatever stage it ran.

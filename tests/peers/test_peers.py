@@ -141,8 +141,7 @@ class PeerTest(ExportingTest):
     def test_its_displacements_are_those_of_p2(self) -> None:
         if self.peer["returns"] != "displacement":
             self.skipTest("it returns no displacements of P2")
-        # Contact of coefficients is P2's discretisation, that of nodes another.
-        allowed = 1e-9 if self.peer["name"] in ("getfem-coefficients", "freefem-uzawa") else 1e-2
+        allowed = self.difference_from_p2()
         for name, definition in SCENES.items():
             with self.subTest(name):
                 folder, said = self.answer(definition)
@@ -152,6 +151,23 @@ class PeerTest(ExportingTest):
                 nodes, expected = self.displacements_of_p2(definition)
                 self.assertEqual(len(found), nodes.max() + 1)
                 self.assertLess(difference(found[nodes], expected), allowed)
+
+    def difference_from_p2(self) -> float:
+        """Contact of coefficients is P2's discretisation, that of nodes another."""
+        return 1e-9 if self.peer["name"] in ("getfem-coefficients", "freefem-uzawa") else 1e-2
+
+    def test_bodies_that_press_on_each_other_are_joined_as_by_p2(self) -> None:
+        if not self.peer.get("joins_bodies"):
+            self.skipTest("it takes one body")
+        blocks, out = PROJECT / "docs/bodies/blocks", tempfile.mkdtemp(dir=self.folder)
+        subprocess.run([BENCH, f"--mesh={blocks}.geo", f"--scene={blocks}.json", "--method=P2",
+                        f"--external={self.declaration}", "--repetitions=1", f"--out={out}"],
+                       check=False, capture_output=True)
+        lines = Path(out, "records.jsonl").read_text(encoding="utf-8").splitlines()
+        p2, own, *_ = map(json.loads, lines)
+        self.assertEqual(("P2", "ok", "ok"), (p2["method"], p2["status"], own["status"]), own["status_reason"])
+        for quantity in ("strain_energy_Nmm", "normal_resultant_N"):
+            self.assertLess(abs(own[quantity] / p2[quantity] - 1), self.difference_from_p2(), quantity)
 
     def displacements_of_p2(self, definition: dict) -> tuple[np.ndarray, np.ndarray]:
         """Nodes, of every triangle three vertices and the middles of its edges, and their displacements."""

@@ -2,6 +2,7 @@
 import csv
 from contextlib import AbstractContextManager
 from itertools import combinations
+from pathlib import Path
 from unittest import TestCase, mock
 
 import matplotlib
@@ -51,6 +52,18 @@ def plan(rows: list[Row], name: str) -> Drawing:
 
 def table_of(drawing: Drawing) -> list[dict[str, str]]:
     return list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+
+
+def assert_fonts_inside(test: TestCase, figure: Path) -> None:
+    """Its PDF has its fonts as TrueType, its SVG needs none; figure: without suffix."""
+    pdf = figure.with_name(figure.name + ".pdf").read_bytes()
+    test.assertTrue(pdf.startswith(b"%PDF"), figure)
+    test.assertIn(b"/FontFile2", pdf)
+    test.assertNotIn(b"/Type3", pdf)
+    test.assertNotIn(b"/CreationDate", pdf)  # the same bytes tomorrow
+    svg = figure.with_name(figure.name + ".svg").read_text(encoding="utf-8")
+    test.assertIn("<path", svg)
+    test.assertNotIn("<text", svg)
 
 
 def without_minor_ticks() -> AbstractContextManager:

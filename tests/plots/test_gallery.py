@@ -9,12 +9,16 @@ from pathlib import Path
 from unittest import mock
 
 import numpy as np
+from matplotlib import colormaps
+from PIL import Image
 
+import drawn
 from running import FolderTest, names_in, run, run_command
 
 import field_drawing
 import fields
 import gallery
+from drawing import STEPS
 
 CORNERS = [(0, 0), (2, 0), (2, 2), (0, 2)]  # mm; contact on x = 2, displacement on x = 0
 LOW = [(0, 0), (0.125, 0), (0.125, 2), (0, 2)]  # of a lower body, for smaller pictures
@@ -104,7 +108,7 @@ class GalleryTest(FolderTest):
         self.assertEqual((self.command[0], self.command[2]), (0, ""))
         figures = self.four / "figures"
         self.assertEqual(names_in(figures), {"gallery.png", "gallery.svg", "gallery.csv"})
-        self.assert_png(figures / "gallery.png", 1328)
+        self.assert_png(figures / "gallery.png", 996)
         svg = (figures / "gallery.svg").read_text()
         self.assertTrue(svg.startswith("<?xml"))
         self.assertLess(len(svg), 2_000_000)
@@ -120,7 +124,7 @@ class GalleryTest(FolderTest):
         self.assertEqual(run(gallery, self.results)[0], 0)
         self.assertEqual(names_in(self.figures),
                          {f"fields_{NAMES[1]}.{kind}" for kind in ("png", "csv")})
-        self.assert_png(self.figures / f"fields_{NAMES[1]}.png", 1328)
+        self.assert_png(self.figures / f"fields_{NAMES[1]}.png", 996)
 
     def test_the_same_input_gives_the_same_picture(self) -> None:
         for name in ("gallery.png", "gallery.svg"):
@@ -130,8 +134,7 @@ class GalleryTest(FolderTest):
     def test_element_map_of_the_error(self) -> None:
         write_solution(self.fields, NAMES[1], contact=False)
         write_shares(self.fields, NAMES[1], [0.25, 0.75])
-        with SMALL:
-            self.assertEqual(run(gallery, self.results)[0], 0)
+        self.assertEqual(run(gallery, self.results)[0], 0)
         picture = self.figures / f"error_map_{NAMES[1]}.png"
         self.assert_png(picture, 691, most_bytes=300_000)
         lines = picture.with_suffix(".csv").read_text(encoding="utf-8").splitlines()
@@ -164,6 +167,34 @@ class GalleryTest(FolderTest):
         self.assertEqual([line.split(",")[:3] for line in lines],
                          [["mesh", "n_phi", "triangles"], *([f"Mesh0~adapt{k}", "", "2"]
                                                             for k in (0, 10, 11))])
+
+    def test_the_last_levels_of_all_degrees_are_side_by_side(self) -> None:
+        names = ["Mesh0~adapt9--default--HYBRID", "Mesh0~adapt10--default--HYBRID",
+                 "Mesh0~adapt2k3--default--HYBRID+k=3", "Mesh0~adapt2k3--default--P2", "L~adapt1--L--HYBRID"]
+        degrees = {1: names[1], 3: names[2]}
+        self.assertEqual(degrees, gallery.degrees_in(names))
+        self.assertEqual({}, gallery.degrees_in(names[:2] + names[3:]))
+        for name in degrees.values():
+            write_solution(self.fields, name)
+            write_shares(self.fields, name, [0.25, 0.75])
+        with SMALL:
+            self.assertEqual(run(gallery, self.results)[::2], (0, ""))
+        with Image.open(self.figures / "adapted_degrees.png") as picture:  # the ends of its scales are kept
+            colours = {colour for _, colour in picture.convert("RGB").getcolors(2**16)}
+        for scale in ("viridis", "cividis"):
+            for end in (0.0, 1.0):
+                self.assertIn(tuple(STEPS[round(255 * part)] for part in colormaps[scale](end)[:3]), colours)
+        maps = [(fields.read_fields(self.results, name, {}), np.r_[0.25, 0.75], 0.01) for name in names[1:3]]
+        words = drawn.words_of(gallery.draw_levels(maps, ("degree 1", "degree 3")))
+        self.assertIn("degree 3\n2 triangles, total error 1 %", words)
+
+    def test_vector_figures_have_their_fonts(self) -> None:
+        write_solution(self.fields, NAMES[1])
+        with SMALL:
+            self.assertEqual(run(gallery, self.results, "--vector")[0], 0)
+            drawn.assert_fonts_inside(self, self.figures / f"fields_{NAMES[1]}")
+            self.assertEqual(run(gallery, self.results)[0], 0)
+        self.assertEqual(names_in(self.figures), {f"fields_{NAMES[1]}.{kind}" for kind in ("png", "csv")})
 
     def test_pictures_of_what_is_no_longer_there_are_removed(self) -> None:
         write_solution(self.fields, NAMES[0], contact=False)

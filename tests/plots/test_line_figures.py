@@ -9,6 +9,7 @@ from figure import degrees as degrees_figure
 from figure import growth as growth_figure
 from figure import load_steps as load_steps_figure
 from figure import overview as overview_figure
+from figure import peers_penalty as penalty_figure
 from figure import scaling as scaling_figure
 from records import CONTACT_SOLVERS, RecordsError
 
@@ -143,6 +144,50 @@ class OverviewTest(unittest.TestCase):
     def test_it_needs_both_stops_and_adapted_meshes(self) -> None:
         for rows in (self.ADAPTED, self.BOTH, self.ADAPTED + self.BOTH[:1]):
             self.assertEqual(list(overview_figure.drawings(made_up.read(rows))), [])
+
+
+class PeersPenaltyTest(unittest.TestCase):
+    ERRORS = {"50": 0.3, "500": 0.04, "5000": 0.03}
+
+    def rows(self, meshes: tuple[str, ...] = ("Mesh0", "Mesh1")) -> list[dict]:
+        body = dict(in_displacements="true", program="x 1", family="EXTERNAL:x", error_stress="", error_force="")
+        sweep = [made_up.case(mesh, f"EXTERNAL:x:penalty={value}", time_s=0.2 * k + 0.1, error_discretisation=error,
+                              status="inaccurate" if value == "50" else "ok", outcome="ok",
+                              error_total="" if value == "50" else error,
+                              parameters=f"penalty={value}; direct", **body)
+                 for mesh in meshes for k, (value, error) in enumerate(self.ERRORS.items())]
+        others = [made_up.case(mesh, method, time_s=1e-3, error_total=0.02)
+                  for mesh in meshes for method in ("P2", "HYBRID", "3STEPD")]
+        single = made_up.case("Mesh0", "EXTERNAL:y", error_total=0.1, **body | {"family": "EXTERNAL:y"})
+        return [*sweep, *others, single]
+
+    def test_a_line_per_program_by_value(self) -> None:
+        drawing, = penalty_figure.drawings(made_up.read(self.rows()))
+        figure = drawing.figure()
+        self.assertEqual([axes.get_title() for axes in figure.axes], ["Mesh0", "Mesh1"])
+        for axes in figure.axes:
+            sweep, = (line for line in axes.lines if len(line.get_xdata()) == 3)
+            self.assertEqual(list(sweep.get_ydata()), list(self.ERRORS.values()))
+            self.assertEqual({text.get_text() for text in axes.texts}, {"x", "50", "500", "5000", "P2", "HYBRID"})
+            hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white"]
+            self.assertEqual([line.get_ydata()[0] for line in hollow], [0.3])  # what is not ok
+        words = drawn.words_of(figure)
+        self.assertIn("(x: penalty)", words)
+        self.assertIn("without a parameter of its own", words)
+        painted, renderer = drawn.paint(figure)
+        drawn.assert_readable(self, figure, painted, renderer)
+
+    def test_its_table(self) -> None:
+        drawing, = penalty_figure.drawings(made_up.read(self.rows(("Mesh0",))))
+        table = {row["method"]: row for row in drawn.table_of(drawing)}
+        self.assertEqual(set(table), {"P2", "HYBRID", *(f"EXTERNAL:x:penalty={value}" for value in self.ERRORS)})
+        soft = table["EXTERNAL:x:penalty=50"]
+        self.assertEqual((soft["parameter"], float(soft["value"]), float(soft["error"])), ("penalty", 50, 0.3))
+        self.assertEqual(table["P2"]["value"], "")
+
+    def test_one_value_is_no_line(self) -> None:
+        rows = [row for row in self.rows() if not row["method"].endswith(("=50", "=500"))]
+        self.assertEqual(list(penalty_figure.drawings(made_up.read(rows))), [])
 
 
 class DegreesTest(unittest.TestCase):

@@ -168,12 +168,14 @@ class PageTest(unittest.TestCase):
         results = self.folder / "results"
         (results / "figures").mkdir(parents=True)
         (results / "figures" / "figure4.png").write_bytes(PNG)
+        (results / "figures" / "path.gif").write_bytes(b"GIF89a")
         record = made_up.made_up_night(0)["cases"][0] | {"method": "<b>&lt;", "stop": "paper"}
         (results / "records.jsonl").write_text(json.dumps(record) + "\n", encoding="utf-8")
         document = self.shown(page=self.make(self.folder / "history", results, name="both.html"))
         self.assertEqual(self.column(document, "method"), ["<b>&lt;"])
-        image = document.one("div", id="pictures").one("img")
+        image, moving = document.one("div", id="pictures").all("img")
         self.assertTrue(image.attrib["src"].startswith("data:image/png;base64,iVBOR"))
+        self.assertTrue(moving.attrib["src"].startswith("data:image/gif;base64,R0lGOD"))
         self.assertNotIn("hidden", document.one("section", id="figures").attrib)
         self.assertIn("hidden", self.shown().one("section", id="figures").attrib)
 

@@ -37,7 +37,8 @@ def of_all_kinds() -> list[dict]:
              for k in (0, 4) for level in range(4) for method in ("HYBRID", "3STEPD:CHOLMOD")]
     rows += [made_up.case(f"Mesh0+adapt{level}", "HYBRID", n_phi=900 * 2**level, adapt_level=level,
                           adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**level,
-                          time_s=0.02 * 2**level) for level in range(4)]
+                          time_s=0.02 * 2**level, lower_bound_Nmm=27 - 0.1 / 4**level,
+                          upper_bound_Nmm=27 + 0.2 / 4**level) for level in range(4)]
     rows += [made_up.case(f"L+adapt{level}" + "k2" * (degree == 2), method, scene="L", degree=degree,
                           adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**(degree * level))
              for level in range(4)
@@ -117,6 +118,9 @@ class PageTest(unittest.TestCase):
     def test_what_is_drawn_is_what_is_written(self) -> None:
         for name, x, y, scale in (("work_precision_Mesh1", "time_s", "error_force", 1),
                                   ("pareto", "peak_heap_bytes", "error_total", 2**-20),
+                                  ("bounds", "n_phi", "lower_bound_Nmm", 1),
+                                  ("bounds", "n_phi", "upper_bound_Nmm", 1),
+                                  ("bounds", "n_phi", "relative_gap", 1),
                                   ("all_methods", "n_phi", "time_s", 1)):
             points = np.array([point for k in range(len(self.figures[name].axes))
                               for point in self.points(name, k)])

@@ -209,6 +209,15 @@ class PaperFiguresTest(drawn.FiguresTest):
                          ["figure3", "figure4", "table1"])
         self.assertIn("figure3: left out: ", out)
 
+    def test_vector_figures_have_their_fonts(self) -> None:
+        self.write(power_laws())
+        for name in ("figure4", "all_methods"):  # with an SVG anyway, and without
+            with drawn.without_minor_ticks():
+                status, out, err = run(figures, self.results, "--vector", f"--only={name}")
+            self.assertEqual((status, err), (0, ""))
+            self.assertRegex(out, rf"{name}\..*\.pdf: \d+ cases")
+            drawn.assert_fonts_inside(self, self.figures / name)
+
     def test_records_without_any_figure_are_no_error(self) -> None:
         self.write([case("Mesh0", "3STEPD")])
         with mock.patch.object(figures, "drawings_of", lambda rows: []), \
@@ -243,4 +252,5 @@ class RunTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
         self.assertIn(f"{folder} has neither records nor fields/", done.stderr)
         self.assertEqual((wrong.returncode, wrong.stdout, wrong.stderr.count("\n")), (2, "", 1))
-        self.assertIn("another' (valid: a results folder, --only=GLOB,..., --animate)", wrong.stderr)
+        self.assertIn("another' (valid: a results folder, --only=GLOB,..., --animate, "
+                      "--vector)", wrong.stderr)

@@ -38,7 +38,7 @@ class ValidationTest(unittest.TestCase):
         status, printed, _ = run(validation_profiles, "--table")
         self.assertEqual(status, 0)
         tables = printed.strip().split("\n\n")
-        self.assertEqual(len(tables), 3)
+        self.assertEqual(len(tables), 4)
         for table in tables:
             self.assertIn(f"\n\n{table}\n\n", written)
 

@@ -2,8 +2,6 @@
 // docs/validation.md. What is found is committed in tests/data/validation/profiles.csv.
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,34 +14,19 @@
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
-#include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/condensed.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
+#include "tests/validation/committed_profiles.hpp"
+#include "tests/validation/edge_tractions.hpp"
 
 namespace airybench::contact_cases_test {
 namespace {
 
-testing::ExpectedTable& table() {
-  static auto* const own = static_cast<testing::ExpectedTable*>(::testing::AddGlobalTestEnvironment(
-      new testing::ExpectedTable(testing::test_data("validation/profiles.csv"), 4)));
-  return *own;
-}
-const testing::ExpectedTable& opened = table();
-
-// Compares with the committed value, or notes this one. `size`: of such values.
-void expect_committed(const std::string& what, int refined, const std::string& quantity, double x,
-                      double value, double size) {
-  const testing::ExpectedTable::Row key = {what, std::to_string(refined), quantity,
-                                           fmt::format("{:.6g}", x)};
-  if (testing::update() != testing::Update::no)
-    return table().note(key, {fmt::format("{:.8g}", value)});
-  const auto* row = table().find(key);
-  ASSERT_NE(row, nullptr) << what << " " << quantity << " at " << x;
-  EXPECT_NEAR(value, std::stod(row->front()), 1e-6 * size)
-      << what << " " << quantity << " at " << x;
-}
+using testing::EdgeTraction;
+using testing::expect_committed;
+using testing::fitted;
 
 // The contact face of a solved problem: forces by HYBRID, displacements by both.
 struct Face {
@@ -51,6 +34,7 @@ struct Face {
   DualSystem system;
   Eigen::VectorXd F_C, slip;  // per contact point: N; ū_t over the wall, mm
   DisplacementField u;        // by P2
+  std::vector<EdgeTraction> edges;
 
   Face(const char* mesh, const char* scene_name, int refined) {
     Scene scene = read_scene(testing::test_data(std::string("validation/") + scene_name + ".json"));
@@ -65,6 +49,7 @@ struct Face {
     solve_condensed_contact(condensed, control, solution);
     EXPECT_EQ(solution.status, Status::ok) << solution.message;
     F_C = solution.F_C;
+    edges = testing::edge_tractions(*problem, system.contact, F_C);
     const Eigen::VectorXd r =
         relative_to_gap(system.contact, Eigen::VectorXd(condensed.D * F_C - condensed.G));
     slip = Eigen::VectorXd::Zero(system.contact.count);
@@ -74,48 +59,12 @@ struct Face {
     EXPECT_EQ(displacements.status, Status::ok) << displacements.message;
     u = with_rigid_motion(*problem, displacements.displacement);
   }
-  int edges() const { return system.contact.count / 2; }
-  std::array<Eigen::Vector2d, 2> ends(int edge) const {
-    const auto [a, b] = problem->mesh.boundary[system.contact.boundary[2 * edge]].vertices;
-    return {problem->mesh.vertices[a], problem->mesh.vertices[b]};
-  }
-  // Mean traction of an edge, MPa: pressure and shear.
-  double mean(int edge, int component) const {
-    const int m = system.contact.components;
-    const auto [a, b] = ends(edge);
-    return (F_C(2 * m * edge + component) + F_C(2 * m * edge + m + component)) / (b - a).norm();
-  }
-  double pressure(int edge) const { return -mean(edge, 0); }
-  double shear(int edge) const {
-    return system.contact.components == 2 ? std::abs(mean(edge, 1)) : 0;
-  }
-  double middle(int edge) const { return (ends(edge)[0].x() + ends(edge)[1].x()) / 2; }
   double resultant(int component) const {
     double sum = 0;
     for (int i = component; i < F_C.size(); i += system.contact.components) sum += F_C(i);
     return std::abs(sum);
   }
 };
-
-// y² = A + B x + C x² through the points with y above `least` times the largest: the half width of
-// an ellipse of pressure and its height.
-struct Ellipse {
-  double half_width, height;
-};
-Ellipse fitted(const Face& face, double least, const std::function<double(int edge)>& y) {
-  double largest = 0;
-  for (int e = 0; e < face.edges(); ++e) largest = std::max(largest, y(e));
-  std::vector<Eigen::Vector4d> rows;
-  for (int e = 0; e < face.edges(); ++e)
-    if (const double x = face.middle(e); y(e) > least * largest)
-      rows.emplace_back(1, x, x * x, y(e) * y(e));
-  const Eigen::Map<const Eigen::Matrix4Xd> all(rows.front().data(), 4,
-                                               static_cast<Eigen::Index>(rows.size()));
-  const Eigen::VectorXd c =
-      testing::least_squares(all.topRows<3>().transpose(), all.row(3).transpose());
-  const double height_squared = c(0) - c(1) * c(1) / (4 * c(2));
-  return {std::sqrt(-height_squared / c(2)), std::sqrt(height_squared)};
-}
 
 constexpr double radius = 4, composite_modulus = 82.4286 / (1 - 0.4999 * 0.4999);
 double hertz_half_width(double P) {
@@ -131,7 +80,7 @@ constexpr std::array<std::pair<double, double>, 5> published = {
 std::pair<double, double> floor_displacement(const Face& face, double x) {
   double sum = 0, p2 = 0;
   int count = 0;
-  for (int e = 0; e < face.edges(); ++e) {
+  for (int e = 0; e < face.system.contact.count / 2; ++e) {
     const auto [a, b] = face.problem->mesh.boundary[face.system.contact.boundary[2 * e]].vertices;
     const auto& vertices = face.problem->mesh.vertices;
     const double tangent = edge_frame(vertices[a], vertices[b]).tangent.x();
@@ -167,8 +116,8 @@ TEST(FrictionBlock, AgreesWithThePublishedMeanAndKnowsItsOwnErrorBetter) {
     // Two discrete problems, one with stresses and one with displacements that are admissible.
     if (refined < 2) continue;
     EXPECT_LT(*std::ranges::max_element(gap_before), 1e-4);
-    for (int e = 0; e < face.edges(); ++e) {
-      const double x = face.ends(e)[0].x();
+    for (const EdgeTraction& edge : face.edges) {
+      const double x = edge.start.x();
       expect_committed("friction_block", refined, "floor HYBRID", x,
                        floor_displacement(face, x).first, 30);
     }
@@ -181,9 +130,8 @@ TEST(CattaneoMindlin, ConvergesToHalfWidthsAndPressure) {
     const Face face("half_plane", "cattaneo_mindlin", refined);
     constexpr double mu = 0.2;
     const double P = face.resultant(0), Q = face.resultant(1);
-    const auto normal = fitted(face, 0.2, [&](int e) { return face.pressure(e); });
-    const auto stick =
-        fitted(face, 0.3, [&](int e) { return mu * face.pressure(e) - face.shear(e); });
+    const auto normal = fitted(face.edges, 0.2, &EdgeTraction::pressure);
+    const auto stick = fitted(face.edges, 0.3, [](auto& e) { return mu * e.pressure - e.shear; });
     const double a = hertz_half_width(P), p0 = 2 * P / (std::numbers::pi * a),
                  c = a * std::sqrt(1 - Q / (mu * P));
     const double worst =
@@ -203,19 +151,18 @@ TEST(CattaneoMindlin, ConvergesToHalfWidthsAndPressure) {
     EXPECT_NEAR(normal.half_width / 0.6808, 1, 0.01);
     EXPECT_NEAR(normal.height / 9.351, 1, 0.01);
     EXPECT_NEAR(stick.half_width / 0.4965, 1, 0.01);
-    for (int e = 0; e < face.edges(); ++e) {
+    for (const EdgeTraction& edge : face.edges) {
       // Mindlin's shear where it sticks: not shifted, nothing added by the body's other end.
-      const double x = face.middle(e);
+      const double x = edge.middle().x();
       if (std::abs(x) < 0.9 * c) {
         EXPECT_NEAR(
-            face.shear(e),
+            edge.shear,
             mu * p0 * (std::sqrt(1 - x * x / (a * a)) - c / a * std::sqrt(1 - x * x / (c * c))),
             0.01 * mu * p0)
             << x;
       }
-      expect_committed("cattaneo_mindlin", refined, "pressure", face.middle(e), face.pressure(e),
-                       10);
-      expect_committed("cattaneo_mindlin", refined, "shear", face.middle(e), face.shear(e), 10);
+      expect_committed("cattaneo_mindlin", refined, "pressure", x, edge.pressure, 10);
+      expect_committed("cattaneo_mindlin", refined, "shear", x, edge.shear, 10);
     }
   }
 }
@@ -273,7 +220,7 @@ TEST(Hertz, TheHalfWidthGrowsWithTheRootOfTheLoad) {
   for (const char* load : {"hertz_1", "hertz_2", "hertz_3"}) {
     const Face face("half_plane", load, 1);
     const double P = face.resultant(0), a = hertz_half_width(P);
-    const auto found = fitted(face, 0.2, [&](int e) { return face.pressure(e); });
+    const auto found = fitted(face.edges, 0.2, &EdgeTraction::pressure);
     EXPECT_NEAR(found.half_width / a, 1, 0.01) << load;
     EXPECT_NEAR(found.height / (2 * P / (std::numbers::pi * a)), 1, 0.01) << load;
     expect_committed(load, 1, "P", 0, P, 10);
@@ -289,14 +236,13 @@ TEST(FlatPunch, HasTheSquareRootPressure) {
     const double P = face.resultant(0);
     expect_committed("punch", refined, "P", 0, P, 10);
     double worst = 0;
-    for (int e = 0; e < face.edges(); ++e) {
-      const double x = face.middle(e);
-      if (refined == 2) expect_committed("punch", refined, "pressure", x, face.pressure(e), 100);
+    for (const EdgeTraction& edge : face.edges) {
+      const double x = edge.middle().x();
+      if (refined == 2) expect_committed("punch", refined, "pressure", x, edge.pressure, 100);
       if (std::abs(x) > 0.8) continue;
-      const auto [a, b] = face.ends(e);  // the mean of P/(π √(1 − x²)) over the edge
-      const double exact =
-          P / std::numbers::pi * (std::asin(b.x()) - std::asin(a.x())) / (b.x() - a.x());
-      worst = std::max(worst, std::abs(face.pressure(e) / exact - 1));
+      const double a = edge.start.x(), b = edge.end.x();  // the mean of P/(π √(1 − x²)) over it
+      const double exact = P / std::numbers::pi * (std::asin(b) - std::asin(a)) / (b - a);
+      worst = std::max(worst, std::abs(edge.pressure / exact - 1));
     }
     expect_committed("punch", refined, "worst deviation for |x| < 0.8", 0, worst, 1);
     EXPECT_LT(worst, before) << refined;

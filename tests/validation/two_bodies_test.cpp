@@ -1,18 +1,13 @@
-// Bodies in contact with each other: against closed forms, a rigid wall, and each other.
+// Bodies in contact with each other: against a rigid wall, and each other.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "assembly/matched_faces.hpp"
-#include "bench/plan/scene_file.hpp"
 #include "bench/verify/verifier.hpp"
-#include "mesh/msh_format.hpp"
-#include "solvers/contact/paired_points.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/pieces.hpp"
-#include "tests/support/places.hpp"
 #include "tests/support/solved_scene.hpp"
 
 namespace airybench::two_bodies_test {
@@ -20,7 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 using testing::add_block;
-using testing::add_quarter_ring;
 
 // One 12 mm wide on another, with so many edges on each face.
 Mesh two_blocks(int lower, int upper, const std::string& left = "force") {
@@ -208,71 +202,6 @@ TEST(TwoBodies, APathWithSlipDissipatesAsAtAWall) {
       EXPECT_EQ(one[k] > 1e-3, !sticks) << name;
       EXPECT_NEAR(both[k], one[k], sticks ? 1e-12 : 1e-4 * one[k]) << name << " step " << k;
     }
-  }
-}
-
-// Two rings, the inner one too large by δ: Lamé's pressure.
-TEST(TwoBodies, AShrinkFitHasLamesPressure) {
-  constexpr double a = 10, b = 20, c = 30, delta = 0.01, E1 = 210000, E2 = 70000, nu = 0.3;
-  const auto modulus = [](double E) { return E / (1 - nu * nu); };
-  constexpr double ratio = nu / (1 - nu);
-  const double softness = b / modulus(E1) * ((b * b + a * a) / (b * b - a * a) - ratio) +
-                          b / modulus(E2) * ((c * c + b * b) / (c * c - b * b) + ratio);
-  Scene scene;
-  scene.crown_radius_mm.reset();
-  scene.displacement_mm = {0, 0};
-  scene.materials = {{"hub", {E1, nu}}, {"rim", {E2, nu}}};
-  scene.contacts = {
-      {.between = {{{"contact:hub"}, {"contact:rim"}}}, .friction = 0, .clearance_mm = -delta}};
-  for (const char* side : {"displacement:x", "displacement:y"})
-    scene.boundary[side].support = BoundaryValues::Support::normal;
-  for (const char* face : {"contact:hub", "contact:rim"})
-    scene.boundary[face].contact.face = CircularWall{{0, 0}, b, CircularWall::Bodies::inside};
-  Mesh mesh;
-  mesh.name = "rings";
-  add_quarter_ring(mesh, "hub", a, b, 16, 8, "force", "contact:hub");
-  add_quarter_ring(mesh, "rim", b, c, 21, 8, "contact:rim", "force");
-  for (const auto& [name, accuracy] :
-       {std::pair("HYBRID", 0.01), {"HYBRID:k=2", 3e-3}, {"P2", 3e-3}, {"P3", 3e-3}}) {
-    const Solved solved(scene, mesh, name);
-    double resultant = 0;
-    if (solved.solution.displacement.cols() > 0) {
-      resultant = *verify_displacement(solved.system, solved.solution).normal_resultant_N;
-    } else {
-      const Reference reference = compute_reference(solved.system);
-      resultant = *verify(solved.system, solved.solution, &reference).normal_resultant_N;
-    }
-    EXPECT_NEAR(-resultant / (std::numbers::pi / 2 * b) / (delta / softness), 1, accuracy) << name;
-  }
-}
-
-// docs/bodies: a mesh of cylinders.geo. Without friction Hertz' pressure, whatever the materials.
-TEST(TwoBodies, TwoCylindersOfTwoMaterialsAreHertzs) {
-  Scene scene = read_scene(testing::source_folder() / "docs/bodies/cylinders.json");
-  const Mesh mesh = read_msh(testing::test_data("validation/cylinders.msh"));
-  constexpr double R = 1 / (1. / 8 + 1. / 12),
-                   softness = (1 - 0.3 * 0.3) * (1. / 210000 + 1. / 70000);
-  for (const auto& [name, refined] : {std::pair("HYBRID:k=2", 0), {"HYBRID", 1}}) {
-    scene.mesh.refine = refined;
-    const Solved solved(scene, mesh, name);
-    const ContactPoints points = joined(solved.system.contact);
-    const Eigen::VectorXd F = of_first(solved.system.contact, solved.solution.F_C);
-    const int n = points.per_edge;
-    const double P = -F.sum(), a = std::sqrt(4 * P * R * softness / std::numbers::pi),
-                 p0 = 2 * P / (std::numbers::pi * a);
-    double off = 0, half_width = 0;
-    for (int p = 0; p < points.count; p += n) {
-      const auto& [start, end] = solved.problem().mesh.boundary[points.boundary[p]].vertices;
-      const Vector2d &from = solved.problem().mesh.vertices[start],
-                     &to = solved.problem().mesh.vertices[end];
-      const double x = (from.x() + to.x()) / 2, mean = -F.segment(p, n).sum() / (to - from).norm();
-      if (std::abs(x) < 0.9 * a)
-        off = std::max(off, std::abs(mean / p0 - std::sqrt(1 - x * x / (a * a))));
-      if (mean > 0) half_width = std::max({half_width, std::abs(from.x()), std::abs(to.x())});
-    }
-    EXPECT_LT(off, 0.02) << name;
-    EXPECT_NEAR(half_width / a, 1, 0.15) << name;
-    EXPECT_FALSE(solved.problem().opposite.empty());
   }
 }
 

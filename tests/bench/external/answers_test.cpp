@@ -130,6 +130,29 @@ TEST_F(Answers, RoundingOfDisplacementsCountsUnlessItIsDeclared) {
   EXPECT_EQ(records.at("declared")["equilibrium_residual"], 0);
 }
 
+// In front of a wall 1e-4 mm farther away everything balances; the nearer one is penetrated.
+TEST_F(Answers, PenetrationBeyondWhatIsAllowedIsInaccurate) {
+  write("farther.mtx",
+        testing::market(testing::right_answer({.clearance_mm = 1e-4}).displacement_mm));
+  const std::string copy = answers + "cp farther.mtx $2/displacement_mm.mtx";
+  declare("right", body, answers);
+  declare("through", body, copy);
+  declare("allowed", body, copy, {{"allowed_penetration", 0.01}});
+  const auto records = records_of("", 1);
+  EXPECT_LT(records.at("right")["penetration_share"], 1e-9);
+  EXPECT_GT(records.at("right")["n_open"], 0);
+  EXPECT_GT(records.at("right")["n_stick"], 0);
+  EXPECT_GT(records.at("right")["n_slip"], 0);
+  const Json& through = records.at("through");
+  EXPECT_EQ(through["status"], "inaccurate");
+  const auto reason = through["status_reason"].get<std::string>();
+  EXPECT_EQ(reason.find("penetrates the wall by 0.0001 mm, 0."), 0u) << reason;
+  EXPECT_TRUE(reason.ends_with(" % of the largest displacement; allowed 0.1 %")) << reason;
+  EXPECT_NEAR(through["penetration_mm"].get<double>(), 1e-4, 1e-9);
+  EXPECT_NEAR(through["edge_penetration_mm"].get<double>(), 1e-4, 1e-9);
+  EXPECT_EQ(records.at("allowed")["status"], "ok") << records.at("allowed")["status_reason"];
+}
+
 // Like the last iterate of our own methods: the status stays, the errors are measured.
 TEST_F(Answers, WhereItGaveUpIsJudged) {
   const std::string gave_up = R"({"status": "not_converged", "time_s": 1e-6, "message": "slow"})";

@@ -1,5 +1,6 @@
 // Other people's programs through the bench command: honest ones, on all kinds of scenes, and wrong
 // declarations.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -107,17 +108,6 @@ TEST_F(ExternalCommand, ItsLogIsKept) {
   declare("airy", "airy", "cp right/* $2; echo iterations: 7 > $2/log.txt");
   records_of("", 0);
   EXPECT_EQ(bench_.content("o/programs/Mesh0--default--EXTERNAL+airy.txt"), "iterations: 7\n");
-}
-
-TEST_F(ExternalCommand, PathsOfLoadStepsAreSkipped) {
-  declare_honest();
-  write("scenes/path.json", R"({"load_steps": 2})");
-  const auto records = records_of("--scene=scenes/path.json", 0);
-  ASSERT_EQ(records.size(), 3u);
-  for (const auto& [name, r] : records) {
-    EXPECT_EQ(r["status"], "skipped") << name;
-    EXPECT_EQ(r["status_reason"], "a path of load steps: other programs are asked for one");
-  }
 }
 
 TEST_F(ExternalCommand, WhatIsHandedOver) {
@@ -349,6 +339,18 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
             "print_precision: " + precision.dump() +
                 " (allowed: with \"returns\": \"displacement\", above 0, up to 5e-6: six digits)");
   refused(with({{"print_precision", 1e-7}}), "print_precision: 1e-07 (allowed: with ");
+  for (const auto& [key, wrong, right, allowed] :
+       {std::tuple("allowed_penetration", Json(0), Json(0.1), "above 0, up to 1"),
+        {"allowed_penetration", Json("1 %"), Json(1), "above 0, up to 1"},
+        {"weak_contact", Json(1), Json(true), "true or false"},
+        {"joins_bodies", Json("yes"), Json(true), "true or false"}}) {
+    const auto line = [&](const Json& given) {
+      return fmt::format("{}: {} (allowed: with \"returns\": \"displacement\", {})", key,
+                         given.dump(), allowed);
+    };
+    refused(with({{"reads", "body"}, {"returns", "displacement"}, {key, wrong}}), line(wrong));
+    refused(with({{key, right}}), line(right));
+  }
   for (const Json& parameter :
        {Json(1), Json({{"a", {1}}, {"b", {1}}}), Json({{"threads", {1}}}), Json({{"A", {1}}}),
         Json({{"a", Json::array()}}), Json({{"a", {1, 0}}}), Json({{"a", {"1"}}})})

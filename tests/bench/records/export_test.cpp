@@ -262,7 +262,8 @@ class ExportCommand : public ::testing::Test {
 
 TEST_F(ExportCommand, WritesEveryFormat) {
   write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n");
-  for (const char* format : {"google-benchmark", "github-action", "bencher", "csv", "junit"}) {
+  for (const char* format :
+       {"google-benchmark", "github-action", "bencher", "csv", "junit", "markdown", "latex"}) {
     EXPECT_EQ(run(std::string(". --format=") + format), 0) << result_.err;
     const std::string printed = result_.out;
     EXPECT_NE(printed.find("Mesh0"), std::string::npos) << format;
@@ -298,6 +299,40 @@ TEST_F(ExportCommand, TheSeriesOfAHistoryIsInOrderOfDate) {
   EXPECT_NE(second, std::string::npos) << result_.out;
 }
 
+TEST_F(ExportCommand, MeshesMethodsAndColumnsAreChosen) {
+  Json other = record("ALM:r=1,rho=2", {2});
+  other["mesh"] = "Mesh1";
+  write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n" +
+                                               record("ALM:r=1,rho=2", {3}).dump() + "\n" +
+                                               other.dump() + "\n");
+  const auto chosen = [&](const std::string& arguments) {
+    EXPECT_EQ(run(". --format=markdown --columns=mesh,method,time " + arguments), 0) << result_.err;
+    std::istringstream lines(result_.out);
+    std::string rows, line;
+    for (int number = 0; std::getline(lines, line); ++number)
+      if (number >= 2) rows += line;
+    return rows;
+  };
+  EXPECT_EQ(chosen("--method='ALM:r=1,rho=2'"),
+            "| Mesh0 | ALM:r=1,rho=2 | 3.00 || Mesh1 | ALM:r=1,rho=2 | 2.00 |");
+  EXPECT_EQ(chosen("--method='A*,HYB*' --mesh='*0'"),
+            "| Mesh0 | HYBRID | 1.00 || Mesh0 | ALM:r=1,rho=2 | 3.00 |");
+  EXPECT_EQ(run(". --format=csv --mesh=Mesh1"), 0);
+  EXPECT_EQ(result_.out.find("Mesh0"), std::string::npos);
+}
+
+TEST_F(ExportCommand, HelpNamesEveryColumn) {
+  write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n");
+  ASSERT_EQ(run(". --format=latex --columns=x"), 2);
+  std::string valid = result_.err.substr(result_.err.find("valid: ") + 7);
+  valid.resize(valid.find(')'));
+  ASSERT_EQ(run("--help"), 0);
+  std::istringstream words(result_.out);
+  std::string help, word;
+  while (words >> word) help += " " + word;
+  EXPECT_NE(help.find("Columns " + valid + ";"), std::string::npos) << valid << "\n" << help;
+}
+
 TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
   const auto expect_line = [&](const std::string& arguments, const std::string& line) {
     EXPECT_EQ(run(arguments + " --out=file"), 2) << arguments;
@@ -306,6 +341,10 @@ TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
   };
   expect_line("nowhere --format=csv",
               "nowhere/records.jsonl: no such file (a folder that bench --out wrote has it)");
+  write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n");
+  expect_line(". --format=csv --columns=time",
+              "--columns: not with --format=csv (markdown and latex have them)");
+  expect_line(". --format=latex --method='P*'", "--method: no case has 'P*' (there are: HYBRID)");
   EXPECT_EQ(run(". --format=xml"), 2);
   EXPECT_NE(result_.err.find("junit"), std::string::npos) << result_.err;
   write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n{\n");

@@ -3,8 +3,8 @@
 
 #include "bench/measure/heap_probe.hpp"
 #include "bench/records/record_files.hpp"
+#include "bench/report/results_table.hpp"
 #include "bench/run/noise_watch.hpp"
-#include "bench/run/progress.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::many_records_test {

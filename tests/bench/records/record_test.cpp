@@ -10,7 +10,7 @@
 #include "bench/records/csv.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/run/progress.hpp"
+#include "bench/report/results_table.hpp"
 #include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
 #include "support/gzip.hpp"

@@ -1,0 +1,281 @@
+#include "bench/report/results_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "bench/records/numbers.hpp"
+#include "bench/records/robust.hpp"
+#include "bench/records/summary.hpp"
+#include "support/text_table.hpp"
+
+namespace airybench {
+
+struct TableColumn {
+  enum class Kind { words, count, seconds, bytes, error, mm, newtons };
+  enum class Shown { always, with_field, in_contact_studies, if_chosen };
+  struct Cell {
+    std::optional<double> number;
+    std::string words;  // if there is no number
+  };
+
+  const char* header;
+  Kind kind;
+  Shown shown;
+  const char* field;  // that some record must have; nullptr: none
+  Cell (*cell)(const Record&);
+};
+
+namespace {
+
+using Cell = TableColumn::Cell;
+using CellKind = TableColumn::Kind;
+using Shown = TableColumn::Shown;
+
+Cell amount(const std::optional<double>& value) { return {value, "-"}; }
+Cell whole(const std::optional<std::int64_t>& value) {
+  return amount(value ? std::optional(static_cast<double>(*value)) : std::nullopt);
+}
+Cell named(std::string text) { return {{}, std::move(text)}; }
+
+// Time without the method's own error check and refinement.
+std::optional<double> unchecked_s(const Record& r) {
+  return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
+}
+
+constexpr std::array<TableColumn, 26> table_columns = {{
+    {"case", CellKind::words, Shown::always, nullptr,
+     [](const Record& r) { return named(name_of(r).text()); }},
+    {"mesh", CellKind::words, Shown::if_chosen, nullptr,
+     [](const Record& r) { return named(r.mesh); }},
+    {"scene", CellKind::words, Shown::if_chosen, nullptr,
+     [](const Record& r) { return named(r.scene); }},
+    {"method", CellKind::words, Shown::if_chosen, nullptr,
+     [](const Record& r) { return named(variant_of(r)); }},
+    {"n_phi", CellKind::count, Shown::with_field, "n_phi",
+     [](const Record& r) { return whole(r.n_phi); }},
+    {"n_c", CellKind::count, Shown::with_field, "siconos_error",
+     [](const Record& r) { return whole(r.n_c); }},
+    {"W", CellKind::words, Shown::with_field, "contact_matrix",
+     [](const Record& r) { return named(r.contact_matrix); }},
+    {"time", CellKind::seconds, Shown::always, nullptr,
+     [](const Record& r) { return amount(r.time_s); }},
+    {"±", CellKind::seconds, Shown::always, nullptr,
+     [](const Record& r) { return r.repetitions == 1 ? named("n=1") : amount(r.time_mad_s); }},
+    {"contact law", CellKind::seconds, Shown::in_contact_studies, "stage_contact_s",
+     [](const Record& r) { return amount(r.stage_contact_s); }},
+    {"unchecked", CellKind::seconds, Shown::with_field, "stage_check_s",
+     [](const Record& r) { return amount(unchecked_s(r)); }},
+    {"heap", CellKind::bytes, Shown::always, nullptr,
+     [](const Record& r) { return whole(r.peak_heap_bytes); }},
+    {"program", CellKind::seconds, Shown::with_field, "program_s",
+     [](const Record& r) { return amount(r.program_s); }},
+    {"its memory", CellKind::bytes, Shown::with_field, "program_s",
+     [](const Record& r) { return r.program.empty() ? named("-") : whole(r.peak_rss_bytes); }},
+    {"error stress", CellKind::error, Shown::with_field, "n_phi",
+     [](const Record& r) { return amount(r.error_stress); }},
+    {"error force", CellKind::error, Shown::with_field, "n_phi",
+     [](const Record& r) { return amount(r.error_force); }},
+    {"natural map", CellKind::error, Shown::with_field, "siconos_error",
+     [](const Record& r) { return amount(r.natural_map_residual); }},
+    {"Siconos", CellKind::error, Shown::with_field, "siconos_error",
+     [](const Record& r) { return amount(r.siconos_error); }},
+    {"error total", CellKind::error, Shown::with_field, "error_total",
+     [](const Record& r) { return amount(worst_error_total(r)); }},
+    // What bodies solved in displacements are asked.
+    {"penetration", CellKind::mm, Shown::with_field, "penetration_mm",
+     [](const Record& r) { return amount(r.penetration_mm); }},
+    {"between nodes", CellKind::mm, Shown::with_field, "penetration_mm",
+     [](const Record& r) { return amount(r.edge_penetration_mm); }},
+    {"tension", CellKind::error, Shown::with_field, "penetration_mm",
+     [](const Record& r) { return amount(r.tension); }},
+    {"over friction", CellKind::error, Shown::with_field, "penetration_mm",
+     [](const Record& r) { return amount(r.friction_excess); }},
+    {"unbalanced", CellKind::newtons, Shown::with_field, "penetration_mm",
+     [](const Record& r) { return amount(r.unbalanced_N); }},
+    {"adapted in", CellKind::seconds, Shown::with_field, "adapt_time_s",
+     [](const Record& r) { return amount(r.adapt_time_s); }},
+    {"status", CellKind::words, Shown::always, nullptr,
+     [](const Record& r) { return named(std::string(name_of(r.status))); }},
+}};
+
+// With its unit.
+std::string text_of(const Cell& cell, CellKind kind) {
+  if (!cell.number) return cell.words;
+  switch (kind) {
+    case CellKind::seconds:
+      return show_seconds(cell.number);
+    case CellKind::bytes:
+      return show_bytes(std::llround(*cell.number));
+    case CellKind::error:
+      return show_error(cell.number);
+    case CellKind::mm:
+      return fmt::format("{:.1e} mm", *cell.number);
+    case CellKind::newtons:
+      return fmt::format("{:.1e} N", *cell.number);
+    default:
+      return fmt::format("{:.0f}", *cell.number);
+  }
+}
+
+std::string imprecise_line(const Record& r) {
+  const std::optional<double> uncertainty = median_uncertainty(r.samples_s);
+  return fmt::format("{}: time known to ± {}, not {:g} %, after {} repetitions\n",
+                     name_of(r).text(),
+                     uncertainty ? fmt::format("{:.2g} %", 100 * *uncertainty) : "?",
+                     100 * *r.precision, r.samples_s.size());
+}
+
+std::string noisy_line(const Record& r) {
+  return fmt::format("{}: noise {:.1f} % around the least noisy of {} attempts, not {:g} %\n",
+                     name_of(r).text(), 100 * *r.noise_share, *r.noise_attempts,
+                     100 * *r.retry_noisy);
+}
+
+}  // namespace
+
+void FilledColumns::add(const Record& r) {
+  for (const TableColumn& column : table_columns)
+    if (column.field != nullptr && !field_named(column.field).value(r).is_null())
+      fields_.insert(column.field);
+  if (worst_error_total(r)) fields_.insert("error_total");  // of a path, whose last step has none
+  has_contact_study_ = has_contact_study_ || r.study == "contact";
+}
+
+bool FilledColumns::include(const TableColumn& column) const {
+  return column.shown != Shown::if_chosen &&
+         (column.field == nullptr || fields_.contains(column.field)) &&
+         (column.shown != Shown::in_contact_studies || has_contact_study_);
+}
+
+void ResultsTable::add(const Record& r) {
+  filled_.add(r);
+  std::string row;
+  for (const TableColumn& column : table_columns)
+    if (column.shown != Shown::if_chosen) row += text_of(column.cell(r), column.kind) + "\t";
+  row.shrink_to_fit();
+  rows_.push_back(std::move(row));
+  if (r.precision && !r.precision_reached && r.time_s) imprecise_ += imprecise_line(r);
+  if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) noisy_ += noisy_line(r);
+  if (r.status != Status::ok)
+    reasons_ += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);
+  else if (const std::string line = fmt::format("{}/{}: {}\n", r.mesh, r.scene, r.status_reason);
+           !r.status_reason.empty() && !r.other_solution && said_.insert(line).second)
+    reasons_ += line;
+}
+
+std::string ResultsTable::text() const {
+  std::vector<std::vector<std::string>> shown(1);
+  for (const TableColumn& column : table_columns)
+    if (filled_.include(column)) shown.front().emplace_back(column.header);
+  for (const std::string& row : rows_) {
+    std::istringstream cells(row);
+    std::string cell;
+    shown.emplace_back();
+    for (const TableColumn& column : table_columns)
+      if (column.shown != Shown::if_chosen && std::getline(cells, cell, '\t') &&
+          filled_.include(column))
+        shown.back().push_back(cell);
+  }
+  return aligned_table(shown, 1) + imprecise_ + noisy_ + reasons_;
+}
+
+namespace {
+
+std::string key_of(const TableColumn& column) {
+  std::string key = column.header;
+  std::ranges::replace(key, ' ', '_');
+  return key;
+}
+
+const TableColumn& column_named(const std::string& key) {
+  const auto* found = std::ranges::find(table_columns, key, key_of);
+  if (found != table_columns.end()) return *found;
+  std::string valid;
+  for (const TableColumn& column : table_columns)
+    valid += (valid.empty() ? "" : ", ") + key_of(column);
+  throw UsageError(fmt::format("--columns: no column is '{}' (valid: {})", key, valid));
+}
+
+std::vector<const TableColumn*> columns_of(const std::vector<Record>& cases,
+                                           const std::vector<std::string>& chosen) {
+  std::vector<const TableColumn*> columns;
+  if (chosen.empty()) {
+    FilledColumns filled;
+    for (const Record& record : cases) filled.add(record);
+    for (const TableColumn& column : table_columns)
+      if (filled.include(column)) columns.push_back(&column);
+    return columns;
+  }
+  for (const std::string& key : chosen) columns.push_back(&column_named(key));
+  const auto names_cases = [](const TableColumn* column) {
+    return column->shown == Shown::if_chosen || column == &table_columns.front();
+  };
+  if (std::ranges::none_of(columns, names_cases))
+    columns.insert(columns.begin(), &table_columns.front());
+  return columns;
+}
+
+struct Unit {
+  const char* suffix;  // of the header
+  double size;
+};
+
+// The largest that is at most the median.
+Unit unit_for(CellKind kind, const std::vector<double>& numbers) {
+  if (kind == CellKind::mm) return {", mm", 1};
+  if (kind == CellKind::newtons) return {", N", 1};
+  if (kind != CellKind::seconds && kind != CellKind::bytes) return {"", 1};
+  constexpr std::array<Unit, 3> times = {{{", s", 1}, {", ms", 1e-3}, {", µs", 1e-6}}};
+  constexpr std::array<Unit, 2> sizes = {{{", GiB", 1 << 30}, {", MiB", 1 << 20}}};
+  const double middle = median(numbers);
+  const auto largest = [&](const auto& units) {
+    for (const Unit& unit : units)
+      if (middle >= unit.size) return unit;
+    return units.back();
+  };
+  return kind == CellKind::seconds ? largest(times) : largest(sizes);
+}
+
+// Three significant digits, more of a number above 1000; never with an exponent.
+std::string three_digits(double value) {
+  const int decimals = std::max(0, 2 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string text_in(const Unit& unit, const Cell& cell, CellKind kind) {
+  if (cell.number == 0.) return "0";
+  if (!cell.number || kind == CellKind::count || kind == CellKind::error)
+    return text_of(cell, kind);
+  if (kind == CellKind::mm || kind == CellKind::newtons) return show_error(cell.number);
+  return three_digits(*cell.number / unit.size);
+}
+
+}  // namespace
+
+PaperTable paper_table(const std::vector<Record>& cases, const std::vector<std::string>& chosen) {
+  PaperTable table;
+  table.rows.resize(cases.size());
+  std::map<CellKind, Unit> units;  // of all columns of a kind: its first's
+  for (const TableColumn* column : columns_of(cases, chosen)) {
+    std::vector<Cell> cells;
+    std::vector<double> numbers;
+    for (const Record& record : cases) {
+      cells.push_back(column->cell(record));
+      if (cells.back().number) numbers.push_back(*cells.back().number);
+    }
+    const Unit unit =
+        units.try_emplace(column->kind, unit_for(column->kind, numbers)).first->second;
+    table.columns.push_back(
+        {std::string(column->header) + unit.suffix, column->kind != CellKind::words});
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      table.rows[k].push_back(text_in(unit, cells[k], column->kind));
+  }
+  return table;
+}
+
+}  // namespace airybench

@@ -1,0 +1,66 @@
+// Polynomials along an edge of Γ_C, by their Bernstein coefficients from the start of its walk on.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "assembly/bernstein.hpp"
+#include "assembly/displacement_field.hpp"
+
+namespace airybench {
+
+using AlongEdge =
+    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, highest_stress_degree + 2>;
+
+struct LargestValue {
+  double value = -std::numeric_limits<double>::infinity();
+  double s = 0;  // where: from 0 to 1
+};
+
+// Of the edge and of what is known already. The values of a part lie below its largest coefficient,
+// and the error of that falls with the square of its length.
+inline LargestValue largest_value(const AlongEdge& c, LargestValue known = {}, double start = 0,
+                                  double length = 1) {
+  constexpr double rounding = 1e-12, shortest = 1e-6;
+  const auto consider = [&](double value, double s) {
+    if (value > known.value) known = {value, s};
+  };
+  consider(c(0), start);
+  consider(c(c.size() - 1), start + length);
+  if (length < shortest || c.maxCoeff() <= known.value + rounding * c.cwiseAbs().maxCoeff())
+    return known;
+  const auto [left, right] = halved(c);
+  known = largest_value(left, known, start, length / 2);
+  return largest_value(right, known, start + length / 2, length / 2);
+}
+
+// Of w of degree p, between bodies of both; mm.
+template <int p>
+struct ContactMotion {
+  std::array<double, p + 1> beyond;  // u_n − g0
+  std::array<double, p + 1> slip;    // u_t, less that of earlier load steps
+};
+template <int p>
+ContactMotion<p> contact_motion(const Problem& problem, int row, const DisplacementField& w) {
+  const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+  const std::array<ContactOffset, p + 1> offset = offset_coefficients<p>(problem, row);
+  ContactMotion<p> motion;
+  for (int i = 0; i <= p; ++i) {
+    const EdgeFrame frame = frame_of_coefficient<p>(problem, row, i);
+    motion.beyond[i] = frame.normal.dot(w.col(nodes[i])) - offset[i].along(frame.normal).x();
+    motion.slip[i] = frame.tangent.dot(w.col(nodes[i]) + offset[i].motion_mm) - offset[i].slid_mm;
+  }
+  const int other = problem.opposite_of(row);
+  if (other == Problem::no_row) return motion;
+  const std::array<int, p + 1> across = boundary_nodes<p>(problem, other);
+  const std::array<ContactOffset, p + 1> beyond = offset_coefficients<p>(problem, other);
+  for (int i = 0; i <= p; ++i) {
+    const EdgeFrame frame = frame_of_coefficient<p>(problem, other, p - i);
+    const Eigen::Vector2d of_other = w.col(across[p - i]);
+    motion.beyond[i] += frame.normal.dot(of_other) - beyond[p - i].along(frame.normal).x();
+    motion.slip[i] += frame.tangent.dot(of_other + beyond[p - i].motion_mm) - beyond[p - i].slid_mm;
+  }
+  return motion;
+}
+
+}  // namespace airybench

@@ -1,0 +1,159 @@
+// The verifier's part for displacement methods.
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/control_points.hpp"
+#include "assembly/rough_compliance.hpp"
+#include "bench/verify/contact_violations.hpp"
+#include "bench/verify/verifier.hpp"
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+namespace {
+
+// A program's force without friction may have any direction between the normals of the two edges of
+// a vertex, and between those of the wall and of the face: its law need not have the wall's, or
+// their mean n, and its nodal forces, in Bernstein coefficients, have another direction. What
+// remains of the force's part t ⊥ n: max(0, |t| − |F_n| tan α), α from n to the farthest of an
+// edge's normals.
+double beyond_both_normals(const Problem& problem, const ControlPoints& control, int p, double F_n,
+                           double t) {
+  const int row = control.law.boundary[p];
+  const std::array<int, 3> nodes = boundary_nodes(problem, row);
+  const auto k = std::ranges::find(nodes, control.node[p]) - nodes.begin();
+  const auto tangent_to = [&](const Eigen::Vector2d& normal) {
+    const Eigen::Vector2d seen = control.frame(p).transpose() * normal;
+    return std::abs(seen.y() / seen.x());
+  };
+  const auto [a, b] = problem.mesh.boundary[row].vertices;
+  const double widest =
+      std::max(tangent_to(problem.frame_at(row, static_cast<int>(k), 2).normal),
+               tangent_to(edge_frame(problem.mesh.vertices[a], problem.mesh.vertices[b]).normal));
+  return std::max(0.0, std::abs(t) - std::max(0.0, -F_n) * widest);
+}
+
+// What rounding of a program's printed numbers u to (1 ± ε) u can do to nodal forces: Σ |K| ε|u|.
+// The middle of an edge, of the coefficient c, is m = (a + 2c + b)/4, so c = 2m − (a + b)/2.
+Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementField& w,
+                                    double precision) {
+  const DisplacementField u = with_rigid_motion(problem, w);
+  Eigen::Matrix2Xd off = u.cwiseAbs();
+  const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
+  for (int edge = 0; edge < problem.edges.count(); ++edge) {
+    const auto [a, b] = problem.edges.vertices[edge];
+    const Eigen::Vector2d middle = (u.col(a) + 2 * u.col(vertices + edge) + u.col(b)) / 4;
+    off.col(vertices + edge) = 2 * middle.cwiseAbs() + (off.col(a) + off.col(b)) / 2;
+  }
+  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+  Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, off.cols());
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const auto K = DisplacementTriangle<2>::stiffness(TriangleShape(problem.vertices_of(t)),
+                                                      elasticity[problem.mesh.triangle_body[t]]);
+    const std::array<int, 6> nodes = triangle_nodes(problem, t);
+    Eigen::Matrix<double, 2, 6> own;
+    for (int m = 0; m < 6; ++m) own.col(m) = off.col(nodes[m]);
+    const Eigen::Matrix<double, 2, 6> of_triangle = (K.cwiseAbs() * own.reshaped()).reshaped(2, 6);
+    for (int m = 0; m < 6; ++m) force.col(nodes[m]) += precision * of_triangle.col(m);
+  }
+  return force;
+}
+
+// Takes out what a weak contact law leaves at nodes of the triangles along Γ_C: contact forces,
+// whose normal and tangential sum it returns.
+Eigen::Vector2d take_weak_forces(const Problem& problem, const std::vector<bool>& prescribed,
+                                 Eigen::Matrix2Xd& balance) {
+  std::vector<int> contact_row(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (problem.mesh.boundary[row].role == BoundaryRole::contact)
+      contact_row[problem.edges.of_boundary[row]] = row;
+  Eigen::Vector2d sum(0, 0);
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
+    for (const int edge : problem.edges.of_triangle[t]) {
+      if (contact_row[edge] == Problem::no_row) continue;
+      const EdgeFrame frame = problem.frame_at(contact_row[edge], 1, 2);
+      for (const int node : triangle_nodes(problem, t)) {
+        if (prescribed[node]) continue;
+        sum += Eigen::Vector2d(frame.normal.dot(balance.col(node)),
+                               frame.tangent.dot(balance.col(node)));
+        balance.col(node).setZero();
+      }
+    }
+  return sum;
+}
+
+}  // namespace
+
+Verification verify_displacement(const DualSystem& system, const Solution& solution) {
+  const Problem& problem = *system.problem;
+  const int degree = system.degree + 1;
+  const ControlPoints control = control_points(problem, degree);
+  const int m = control.law.components;
+  const LoadScale scale = load_scale(problem);
+  const StressField stress = stress_of_displacement(problem, solution.displacement);
+  NodalForces balance = nodal_forces(problem, stress);
+  balance.sum -= nodal_loads(problem, degree);
+
+  Eigen::VectorXd displacement(control.law.size());
+  for (int p = 0; p < control.law.count; ++p) {
+    const Eigen::Matrix2d frame = control.frame(p);
+    const int node = control.node[p];
+    for (int k = 0; k < m; ++k) {
+      const bool held = k == 1 && control.on_roller[p];
+      displacement(m * p + k) = held ? 0 : frame.col(k).dot(solution.displacement.col(node));
+      balance.sum.col(node) -= solution.F_C(m * p + k) * frame.col(k);
+    }
+    if (m == 1 && solution.program && !control.on_roller[p]) {
+      const Eigen::Vector2d t = frame.col(1);
+      const double off = t.dot(balance.sum.col(node));
+      const double beyond = beyond_both_normals(problem, control, p, solution.F_C(p), off);
+      balance.sum.col(node) += (std::copysign(beyond, off) - off) * t;
+    }
+  }
+  const PrescribedDisplacement prescribed = prescribed_displacement(problem, degree);
+  for (const auto& [node, n] : prescribed.normal)  // the roller's reaction
+    balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
+  Eigen::Vector2d weak_N(0, 0);
+  const bool is_weak = solution.program && solution.program->weak_contact;
+  if (is_weak) weak_N = take_weak_forces(problem, prescribed.at, balance.sum);
+  Eigen::Vector2d resultant(0, 0);
+  for (std::size_t node = 0; node < prescribed.at.size(); ++node)
+    if (!prescribed.at[node]) resultant += balance.sum.col(node);
+  if (solution.program && solution.program->print_precision > 0)
+    balance.sum = (balance.sum.cwiseAbs() - forces_of_rounding(problem, solution.displacement,
+                                                               solution.program->print_precision))
+                      .cwiseMax(0.0);
+  double unbalanced = not_transmitted(control.law, solution.F_C);
+  for (std::size_t node = 0; node < prescribed.at.size(); ++node)
+    if (!prescribed.at[node])
+      unbalanced = std::max(unbalanced, balance.sum.col(node).cwiseAbs().maxCoeff());
+
+  Verification result;
+  result.equilibrium_residual = relative_error(unbalanced, balance.largest, scale.force_N);
+  result.unbalanced_N = resultant.norm();
+  result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;
+  result.unstressed = result.strain_energy_Nmm == 0;
+  if (control.law.count == 0) return result;
+  const ContactPoints& law = control.law;
+  const Eigen::VectorXd& F = solution.F_C;
+  const Eigen::VectorXd compliance = rough_compliance(problem, law);
+  note_contact_forces(law, F, result);
+  note_contact_law(law, F, displacement, compliance, scale, result);
+  const Penetration through = penetration(problem, solution.displacement);
+  result.penetration_mm = through.at_nodes_mm;
+  result.edge_penetration_mm = through.on_edges_mm;
+  result.penetration_share = through.share;
+  if (!solution.program) return result;
+  // The program has another discrete law: only the violations in N apply.
+  result.natural_map_residual.reset();
+  const Eigen::VectorXd r = relative_to_gap(law, displacement);
+  note_contact_states(law, project_on_coulomb(law, trial_forces(law, compliance, F, r)), result);
+  if (!is_weak) return result;
+  *result.normal_resultant_N += weak_N(0);
+  *result.tangential_resultant_N += weak_N(1);
+  for (auto of_nodes : {&Verification::tension, &Verification::friction_excess,
+                        &Verification::signorini_violation_N, &Verification::coulomb_violation_N})
+    (result.*of_nodes).reset();
+  return result;
+}
+
+}  // namespace airybench
