@@ -78,6 +78,26 @@ TEST_P(OwnBodies, FacesOfDifferentBodiesAreProposedInPairs) {
   EXPECT_NE(cg.err.find("faces that press on each other are matched: "), std::string::npos);
 }
 
+// Its middle and upper block are held by contact alone.
+TEST_P(OwnBodies, WhatContactAloneHoldsIsNotExportedAndSomeMethodsSkipIt) {
+  if (GetParam() != std::string("pile")) return;
+  const std::string of = " --mesh=" + body(".geo") + " --scene=" + body(".json"),
+                    cache = "export AIRYBENCH_CACHE_DIR=cache; ";
+  const testing::CommandResult refused =
+      bench_.run("export-problem --format=npz --out=exported" + of, cache);
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("pile: a body that contact alone holds has no D to export (allowed: "
+                             "bodies that displacement edges hold)\n"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_FALSE(fs::exists(bench_.path("exported")));
+  const testing::CommandResult skipped = bench_.run("--method=ALM:AUTO --out=o" + of, cache);
+  EXPECT_EQ(bench_.records().at(0)["status"], "skipped") << skipped.err;
+  EXPECT_NE(skipped.out.find("a body that contact alone holds: its motion is found by"),
+            std::string::npos)
+      << skipped.out;
+}
+
 const std::vector<const char*> few = {"cylinder", "plate", "stack"},
                                all = {"punch",  "dovetail", "cylinder",  "L",        "plate",
                                       "ring",   "stack",    "cylinders", "indenter", "lug",
