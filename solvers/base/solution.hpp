@@ -41,7 +41,7 @@ struct ProgramRun {
   double print_precision = 0;   // largest relative rounding of its numbers; 0: of doubles
   double allowed_penetration = 0;  // of its displacements, relative to the largest
   bool weak_contact = false;       // its contact law also loads inner nodes next to Γ_C
-  std::string log;              // its log for the reader
+  std::string log;                 // its log for the reader
 };
 
 // Wall clock of an iteration's pieces, in whatever stage it ran.
