@@ -15,7 +15,7 @@ from words import CASE, csv_of, left_out, plain, threads
 LEFT, TOP, HEIGHT, BETWEEN, GAP = 0.72, 0.62, 3.4, 0.78, 0.2  # inches
 PANELS, IN_ROW = 4, 2
 COMPARED = ("P2", "HYBRID")
-CHOSEN = re.compile(r"(\w+)=([^;]+)")
+CHOSEN = re.compile(r"(\w+)=([-+.\de]+)(?:;|$)")
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
