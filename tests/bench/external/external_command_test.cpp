@@ -339,18 +339,19 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
             "print_precision: " + precision.dump() +
                 " (allowed: with \"returns\": \"displacement\", above 0, up to 5e-6: six digits)");
   refused(with({{"print_precision", 1e-7}}), "print_precision: 1e-07 (allowed: with ");
-  for (const auto& [key, wrong, right, allowed] :
-       {std::tuple("allowed_penetration", Json(0), Json(0.1), "above 0, up to 1"),
-        {"allowed_penetration", Json("1 %"), Json(1), "above 0, up to 1"},
-        {"weak_contact", Json(1), Json(true), "true or false"},
-        {"joins_bodies", Json("yes"), Json(true), "true or false"}}) {
+  const auto refused_of_displacement = [&](const char* key, const Json& wrong, const Json& valid,
+                                           const char* allowed) {
     const auto line = [&](const Json& given) {
       return fmt::format("{}: {} (allowed: with \"returns\": \"displacement\", {})", key,
                          given.dump(), allowed);
     };
     refused(with({{"reads", "body"}, {"returns", "displacement"}, {key, wrong}}), line(wrong));
-    refused(with({{key, right}}), line(right));
-  }
+    refused(with({{key, valid}}), line(valid));
+  };
+  refused_of_displacement("allowed_penetration", 0, 0.1, "above 0, up to 1");
+  refused_of_displacement("allowed_penetration", "1 %", 1, "above 0, up to 1");
+  refused_of_displacement("weak_contact", 1, true, "true or false");
+  refused_of_displacement("joins_bodies", "yes", true, "true or false");
   for (const Json& parameter :
        {Json(1), Json({{"a", {1}}, {"b", {1}}}), Json({{"threads", {1}}}), Json({{"A", {1}}}),
         Json({{"a", Json::array()}}), Json({{"a", {1, 0}}}), Json({{"a", {"1"}}})})
