@@ -246,6 +246,25 @@ TEST(TwoBodies, APartThatFacesNothingIsFree) {
   EXPECT_NEAR(faces, 5, 1e-12);
 }
 
+// Each body then moves as a whole, with stresses that are rounding: no error, and no answer either
+// where only the mesh is too coarse to see that they touch.
+TEST(TwoBodies, ThatDoNotTouchHaveNoStress) {
+  const Mesh mesh = two_blocks(8, 8);
+  Scene apart = pressed(0, {0, -1e-4});
+  apart.contacts.front().clearance_mm = 1e-3;
+  Scene crowned = pressed(0, {0, -1e-4});
+  crowned.boundary["contact:block"].contact.face =
+      CircularWall{{6, 50}, 50, CircularWall::Bodies::inside};
+  for (const char* name : {"HYBRID", "HYBRID:k=2", "3STEPD"})
+    for (const auto& [scene, error_total] : {std::pair(&apart, 0.), {&crowned, 1.}}) {
+      const Solved solved(*scene, mesh, name);
+      const Reference reference = compute_reference(solved.system);
+      EXPECT_TRUE(solved.solution.F_C.isZero(0)) << name;
+      EXPECT_LT(worst_measure(verify(solved.system, solved.solution, &reference)).value, 1e-9);
+      EXPECT_NEAR(solved.recovered_error().relative, error_total, 1e-6) << name;
+    }
+}
+
 TEST(TwoBodies, WhatCannotBeIsRefusedInALine) {
   const Mesh mesh = two_blocks(7, 10);
   const auto complaint = [&](const auto& change) {
