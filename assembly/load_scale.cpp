@@ -34,6 +34,7 @@ LoadScale load_scale(const Problem& problem) {
     }
   }
   LoadScale scale;
+  if (!problem.opposite.empty()) scale.rounding = 1e-11;
   double energy = 0;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     const double c = problem.compliance_of(t)(0, 0);
@@ -46,7 +47,7 @@ LoadScale load_scale(const Problem& problem) {
 }
 
 double relative_error(double error, double quantity, double scale) {
-  return error == 0 ? 0 : error / (is_rounding(quantity, scale) ? scale : quantity);
+  return error == 0 ? 0 : error / (quantity > 0 ? quantity : scale);
 }
 
 double larger_error(double one, double other) {

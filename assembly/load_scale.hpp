@@ -6,18 +6,25 @@
 
 namespace airybench {
 
+// error / quantity; error / scale if the quantity is zero; 0 if the error is zero.
+double relative_error(double error, double quantity, double scale);
+
 struct LoadScale {
   double energy_norm = 0;  // √(N mm)
   double force_N = 0;
+  // What rounding may leave of either where it should be zero: bodies that miss each other move as
+  // a whole, each by its own motion, and only that of all is taken out beforehand.
+  double rounding = 0;
+
+  bool is_no_energy(double norm) const { return norm <= rounding * energy_norm; }
+  double relative_energy(double error, double norm) const {
+    return relative_error(error, is_no_energy(norm) ? 0 : norm, energy_norm);
+  }
+  double relative_force(double error, double force) const {
+    return relative_error(error, force <= rounding * force_N ? 0 : force, force_N);
+  }
 };
 LoadScale load_scale(const Problem& problem);
-
-// Of a quantity that would be zero: two bodies that do not touch leave each other without stress,
-// but not without rounding.
-inline bool is_rounding(double quantity, double scale) { return quantity <= 1e-11 * scale; }
-
-// error / quantity; error / scale if the quantity is only rounding; 0 if the error is zero.
-double relative_error(double error, double quantity, double scale);
 
 // NaN if one of them is: an unknown error is the worst.
 double larger_error(double one, double other);

@@ -84,34 +84,25 @@ def opposite_of(problem, side):
 def contact(problem, sides, held, of_coefficients):
     """Rows (normal, tangential), gaps, friction of every node or Bernstein coefficient of contact edges.
 
-    A vertex between two edges has their mean normal, the smaller gap and the smaller friction. Between
-    bodies a row has the nodes of both, that of the second body's with the opposite sign.
+    A vertex between two edges has their mean normal, the smaller gap and the smaller friction.
     """
     weights = np.eye(3)
     if of_coefficients:
         weights[1] = -1 / 2, 2, -1 / 2
     points = {}
     for side in sides_of(problem, "contact"):
-        other = opposite_of(problem, side)
-        if 0 <= other < side:
-            continue
         normals = problem["contact_normals"][side].reshape(3, 2)
-        gaps, bodies = problem["gap_mm"][side], [(1, sides[side])]
-        if other >= 0:
-            gaps = gaps + problem["gap_mm"][other][::-1]
-            bodies.append((-1, sides[other][::-1]))
-        for k in range(3):
-            if any(is_free(normals[k], held.get(nodes[k], [[]])[0]) for _, nodes in bodies):
-                point = points.setdefault(sides[side][k], [bodies, weights[k], 0, np.inf, np.inf])
+        gaps = weights @ problem["gap_mm"][side]
+        for k, node in enumerate(sides[side]):
+            if is_free(normals[k], held.get(node, [[]])[0]):
+                point = points.setdefault(node, [sides[side], weights[k], 0, np.inf, np.inf])
                 point[2] = point[2] + normals[k]
-                point[3] = min(point[3], weights[k] @ gaps)
+                point[3] = min(point[3], gaps[k])
                 point[4] = min(point[4], problem["friction"][side])
     law = [], [], [], []
-    for bodies, own, n, gap, friction in points.values():
+    for nodes, own, n, gap, friction in points.values():
         n = n / np.hypot(*n)
-        for column, direction in zip(law, (n, np.array([-n[1], n[0]]))):
-            column.append({dof: value for sign, nodes in bodies
-                           for dof, value in row_along(sign * direction, nodes, own).items()})
-        law[2].append(gap)
-        law[3].append(friction)
+        for column, value in zip(law, (row_along(n, nodes, own), row_along((-n[1], n[0]), nodes, own),
+                                       gap, friction)):
+            column.append(value)
     return law

@@ -108,7 +108,7 @@ void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
                       const LoadScale& scale, Verification& result) {
   const int m = contact.components;
   const Eigen::VectorXd residual = natural_map(contact, D_diagonal, F, displacement);
-  result.natural_map_residual = relative_error(residual.norm(), F.norm(), scale.force_N);
+  result.natural_map_residual = scale.relative_force(residual.norm(), F.norm());
   double signorini = 0, coulomb = 0;
   for (int p = 0; p < contact.count; ++p) {
     signorini = std::max(signorini, std::abs(residual(m * p)));

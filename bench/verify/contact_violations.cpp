@@ -13,13 +13,16 @@ double tangential_force(const ContactPoints& contact, const Eigen::VectorXd& F, 
   return F.segment(m * point + 1, m - 1).norm();
 }
 
-double not_transmitted(const ContactPoints& contact, const Eigen::VectorXd& F) {
+double not_transmitted(const ContactPoints& contact, const Eigen::VectorXd& F,
+                       const Eigen::VectorXd& rounding) {
   const int m = contact.components;
   double largest = 0;
   for (int p = 0; p < contact.count; ++p)
-    if (const int q = contact.opposite_of(p); q > p)
-      largest =
-          std::max(largest, (F.segment(m * p, m) - F.segment(m * q, m)).cwiseAbs().maxCoeff());
+    if (const int q = contact.opposite_of(p); q > p) {
+      const double allowed = rounding.size() > 0 ? rounding(p) + rounding(q) : 0;
+      largest = std::max(
+          largest, (F.segment(m * p, m) - F.segment(m * q, m)).cwiseAbs().maxCoeff() - allowed);
+    }
   return largest;
 }
 

@@ -10,8 +10,10 @@ namespace airybench {
 // |F_t| of a point.
 double tangential_force(const ContactPoints& contact, const Eigen::VectorXd& F, int point);
 
-// The largest difference of a force and its reaction on another body, N.
-double not_transmitted(const ContactPoints& contact, const Eigen::VectorXd& F);
+// The largest difference of a force and its reaction on another body, N, beyond the rounding of
+// both points' forces, N (empty: none).
+double not_transmitted(const ContactPoints& contact, const Eigen::VectorXd& F,
+                       const Eigen::VectorXd& rounding = {});
 
 // Largest F_n > 0 and |F_t| − μ max(0, −F_n) of a contact point, over the largest component of F.
 struct ForceViolations {

@@ -208,10 +208,11 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   judge_admissibility(F_C, u, highest_gap, highest_force, error);
   note_bounds<k>(system, fields, highest_gap, error);
   // Where the mesh lets bodies miss each other, û may know better: then all is error.
-  const double scale = load_scale(problem).energy_norm, of_stress = std::sqrt(2 * fields.energy),
-               size = is_rounding(of_stress, scale) ? std::sqrt(2 * fields.energy_of_u) : of_stress;
+  const LoadScale scale = load_scale(problem);
+  const double of_stress = std::sqrt(2 * fields.energy),
+               size = scale.is_no_energy(of_stress) ? std::sqrt(2 * fields.energy_of_u) : of_stress;
   const auto relative = [&](double squared) {
-    return relative_error(std::sqrt(std::max(0.0, squared)), size, scale);
+    return scale.relative_energy(std::sqrt(std::max(0.0, squared)), size);
   };
   error.relative = relative(error.squared_Nmm());
   error.relative_of_mean = relative(error.squared_of_mean_Nmm());

@@ -118,17 +118,21 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
   Eigen::Vector2d resultant(0, 0);
   for (std::size_t node = 0; node < prescribed.at.size(); ++node)
     if (!prescribed.at[node]) resultant += balance.sum.col(node);
-  if (solution.program && solution.program->print_precision > 0)
-    balance.sum = (balance.sum.cwiseAbs() - forces_of_rounding(problem, solution.displacement,
-                                                               solution.program->print_precision))
-                      .cwiseMax(0.0);
-  double unbalanced = not_transmitted(control.law, solution.F_C);
+  Eigen::VectorXd rounding;  // per contact point
+  if (solution.program && solution.program->print_precision > 0) {
+    const Eigen::Matrix2Xd of_nodes =
+        forces_of_rounding(problem, solution.displacement, solution.program->print_precision);
+    balance.sum = (balance.sum.cwiseAbs() - of_nodes).cwiseMax(0.0);
+    rounding.resize(control.law.count);
+    for (int p = 0; p < control.law.count; ++p) rounding(p) = of_nodes.col(control.node[p]).norm();
+  }
+  double unbalanced = not_transmitted(control.law, solution.F_C, rounding);
   for (std::size_t node = 0; node < prescribed.at.size(); ++node)
     if (!prescribed.at[node])
       unbalanced = std::max(unbalanced, balance.sum.col(node).cwiseAbs().maxCoeff());
 
   Verification result;
-  result.equilibrium_residual = relative_error(unbalanced, balance.largest, scale.force_N);
+  result.equilibrium_residual = scale.relative_force(unbalanced, balance.largest);
   result.unbalanced_N = resultant.norm();
   result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;
   result.unstressed = result.strain_energy_Nmm == 0;

@@ -30,10 +30,10 @@ double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
     const LongVector u = at_F.u.tail(system.n_c);
     const Eigen::VectorXd r = relative_to_gap(contact, u).cast<double>();
     const double residual =
-        relative_error(natural_map_of(contact, D.diagonal(), F, r).norm(), F.norm(), scale.force_N);
+        scale.relative_force(natural_map_of(contact, D.diagonal(), F, r).norm(), F.norm());
     if (!(residual < best)) break;
     const Eigen::VectorXd next = active_set_step(D, contact, F, r);
-    error = next.allFinite() ? relative_error(D_norm(D, next - F), D_norm(D, F), scale.energy_norm)
+    error = next.allFinite() ? scale.relative_energy(D_norm(D, next - F), D_norm(D, F))
                              : std::numeric_limits<double>::infinity();
     reference.F_C = F;
     reference.natural_map_residual = residual;
@@ -82,9 +82,8 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
     refine(system, factor.cholesky(), {}, refined);
   }
   reference.stress = hybridized_stress(problem, system, refined.u);
-  const double stress_error =
-      relative_error(refined.last_correction,
-                     std::sqrt(stress_norm_squared(problem, reference.stress)), scale.energy_norm);
+  const double stress_error = scale.relative_energy(
+      refined.last_correction, std::sqrt(stress_norm_squared(problem, reference.stress)));
   reference.error_estimate = std::max({stress_error, force_error, reference.natural_map_residual});
   return reference;
 }

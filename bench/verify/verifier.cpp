@@ -147,7 +147,7 @@ void note_equilibrium(const DualSystem& system, const Solution& solution,
   for (int edge = 0; edge < problem.edges.count(); ++edge)
     if (!on_boundary[edge])
       unbalanced = std::max(unbalanced, balance.of(edge).cwiseAbs().maxCoeff());
-  result.equilibrium_residual = relative_error(unbalanced, balance.largest, scale.force_N);
+  result.equilibrium_residual = scale.relative_force(unbalanced, balance.largest);
   result.unbalanced_N = resultant.norm();
 }
 
@@ -232,15 +232,15 @@ void verify_contact(const ContactPoints& points, const Solution& solution,
   const Eigen::MatrixXd& D = reference->condensed.D;
   note_contact(points, D, F, times(D, F) - reference->condensed.G, scale, result);
   result.error_force =
-      relative_error(D_norm(D, F - reference->F_C), D_norm(D, reference->F_C), scale.energy_norm);
+      scale.relative_energy(D_norm(D, F - reference->F_C), D_norm(D, reference->F_C));
 }
 
 void verify_moments(const DualSystem& system, const Solution& solution, const LoadScale& scale,
                     Verification& result) {
   const MomentsCheck check = check_moments(system, solution.edge_moments);
-  result.stress_of_moments_off = relative_error(
-      stress_distance(*system.problem, solution.stress, check.stress),
-      std::sqrt(stress_norm_squared(*system.problem, solution.stress)), scale.energy_norm);
+  result.stress_of_moments_off =
+      scale.relative_energy(stress_distance(*system.problem, solution.stress, check.stress),
+                            std::sqrt(stress_norm_squared(*system.problem, solution.stress)));
   if (system.contact.count > 0)
     note_contact_law(system.contact, solution.F_C, check.contact_displacement,
                      rough_compliance(*system.problem, system.contact), scale, result);
@@ -263,7 +263,7 @@ Verification verify(const DualSystem& system, const Solution& solution,
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
     const double distance = stress_distance(problem, solution.stress, reference->stress);
     result.unstressed = reference_norm == 0;
-    result.error_stress = relative_error(distance, reference_norm, scale.energy_norm);
+    result.error_stress = scale.relative_energy(distance, reference_norm);
     result.error_stress_absolute = distance;
     result.reference_error = reference->error_estimate;
   }

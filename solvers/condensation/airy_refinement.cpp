@@ -59,14 +59,13 @@ Correction correction(const Checked& of, const AiryResidual& at, const Eigen::Ve
   result.energy_norm = error_norm(system, result.delta, product.stress_norm, residual.x);
   result.S_delta = std::move(product.S_x);
   double error = corrected_before + result.energy_norm;
-  result.estimate = relative_error(unbalanced, force_scale, of.scale.force_N);
+  result.estimate = of.scale.relative_force(unbalanced, force_scale);
   if (F_C.size() > 0) {
     const ContactCheck check = of.law(F_C, -(lambda_C + result.delta.lambda_C));
     error += check.energy_norm;
     result.estimate = larger_error(result.estimate, check.relative);
   }
-  result.estimate =
-      larger_error(result.estimate, relative_error(error, stress_norm, of.scale.energy_norm));
+  result.estimate = larger_error(result.estimate, of.scale.relative_energy(error, stress_norm));
   return result;
 }
 
@@ -141,7 +140,7 @@ void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& so
     // ‖ΔF‖_D ≤ ‖e‖_D + ‖D_d e‖_{D⁻¹}, e the map: the last up to 6 ‖e‖ in D_d (theory.md, 25).
     constexpr double multiple = 10;
     result.energy_norm = multiple * std::sqrt(off.dot(D_diagonal.cwiseProduct(off)));
-    result.relative = multiple * relative_error(off.norm(), F_C.norm(), scale.force_N);
+    result.relative = multiple * scale.relative_force(off.norm(), F_C.norm());
     return result;
   };
   check({system, check_law, scale, solve}, answer, control, solution);

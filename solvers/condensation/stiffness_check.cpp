@@ -22,7 +22,7 @@ void check_stiffness_answer(const Problem& problem, const contact::Problem& cond
                          (unbalanced.defect.size() > 0 ? 2 * delta.dot(unbalanced.defect) : 0);
   double error =
       (squared < 0 ? 0 : std::sqrt(squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
-  double estimate = relative_error(r.lpNorm<Eigen::Infinity>(), unbalanced.largest, scale.force_N);
+  double estimate = scale.relative_force(r.lpNorm<Eigen::Infinity>(), unbalanced.largest);
   if (solution.F_C.size() > 0) {
     const ContactCheck check = check_contact(condensed.D, condensed.points, solution.F_C,
                                              displacement + delta.tail(displacement.size()), scale);
@@ -30,8 +30,8 @@ void check_stiffness_answer(const Problem& problem, const contact::Problem& cond
     estimate = larger_error(estimate, check.relative);
   }
   estimate = larger_error(
-      estimate, relative_error(error, std::sqrt(stress_norm_squared(problem, solution.stress)),
-                               scale.energy_norm));
+      estimate,
+      scale.relative_energy(error, std::sqrt(stress_norm_squared(problem, solution.stress))));
   judge_by_own_estimate(estimate, control, solution);
 }
 

@@ -179,8 +179,8 @@ ContactCheck check_contact(const Eigen::MatrixXd& D, const ContactPoints& contac
   ContactCheck check;
   check.energy_norm = D_norm(D, active_set_step(D, contact, F, r) - F);
   const double off = natural_map(contact, D.diagonal(), F, displacement).norm();
-  check.relative = larger_error(relative_error(check.energy_norm, D_norm(D, F), scale.energy_norm),
-                                relative_error(off, F.norm(), scale.force_N));
+  check.relative = larger_error(scale.relative_energy(check.energy_norm, D_norm(D, F)),
+                                scale.relative_force(off, F.norm()));
   return check;
 }
 

@@ -45,8 +45,8 @@ double rows_error(ContactRows& rows, UnbalancedForces unbalanced, const RowsAnsw
   }
   const double stress =
       safety * std::sqrt(std::max(0.0, squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
-  const double estimate = std::max(relative_error(largest_r, unbalanced.largest, scale.force_N),
-                                   relative_error(stress, stress_norm, scale.energy_norm));
+  const double estimate = std::max(scale.relative_force(largest_r, unbalanced.largest),
+                                   scale.relative_energy(stress, stress_norm));
   if (rows.contact.count == 0) return estimate;
   const std::vector<PointLaw> open(laws.size());
   const Correction held = solve_under(rows, open, std::move(load), iterations);
@@ -54,9 +54,9 @@ double rows_error(ContactRows& rows, UnbalancedForces unbalanced, const RowsAnsw
       natural_map(rows.contact, compliance, F_C, u_C + rows.of_contact(held.x));
   const double of_map = 2 * std::sqrt(map.cwiseAbs2().dot(compliance));
   return std::max({estimate,
-                   relative_error(safety * (norm_under_laws + held.norm + of_map),
-                                  rows.norm_from_below(F_C), scale.energy_norm),
-                   relative_error(map.norm(), F_C.norm(), scale.force_N)});
+                   scale.relative_energy(safety * (norm_under_laws + held.norm + of_map),
+                                         rows.norm_from_below(F_C)),
+                   scale.relative_force(map.norm(), F_C.norm())});
 }
 
 }  // namespace airybench

@@ -53,6 +53,9 @@ def of_all_kinds() -> list[dict]:
     rows += [made_up.case(mesh, "3STEPD", study="contact", scene=scene, contact_solver=solver,
                           stage_contact_s=0.01, contact_iterations=20) for mesh in ("Mesh0", "Mesh1")
              for scene in ("default", "friction_10") for solver in ("newton", "admm")]
+    rows += [made_up.case("Mesh0", f"EXTERNAL:x:penalty={value}", time_s=0.1 * value, error_total=0.1 / value,
+                          parameters=f"penalty={value}; direct", program="x 1", family="EXTERNAL:x",
+                          in_displacements="true") for value in (1, 10)]
     split = [made_up.split("Mesh0", method, factor=(3, 2)) for method in ("BLIND:LEAN", "NEWTON")]
     return [made_up.record(row) for row in rows] + split
 
