@@ -7,6 +7,7 @@
 
 #include "bench/measure/field_files.hpp"
 #include "bench/measure/judge.hpp"
+#include "bench/records/summary.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
 
@@ -170,7 +171,7 @@ bool ends_unloaded(const std::vector<JudgedStep>& steps) {
 
 }  // namespace
 
-// An error above 100 % is not ok. Gives a reason if a displacement method has no error.
+// An error of 100 % is not ok. Gives a reason if a displacement method has no error.
 void Judge::judge_discretisation(const Method& method, const std::vector<JudgedStep>& steps,
                                  const Solution& solution, Record& record) {
   if (method.in_displacements && solution.program)
@@ -185,7 +186,7 @@ void Judge::judge_discretisation(const Method& method, const std::vector<JudgedS
     record.error_mean.reset();
     record.no_discretisation_error =
         "the last load step has no stress that it could be relative to";
-  } else if (record.error_discretisation.value_or(0) > 1) {
+  } else if (is_all_error(record.error_discretisation)) {
     record.status = Status::inaccurate;
     record.status_reason = std::isinf(*record.error_discretisation)
                                ? "it has stress, and the reference has none"

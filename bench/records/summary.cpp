@@ -93,7 +93,7 @@ std::string outcome_of(const Record& r) {
   const auto is_met = [&](const std::optional<double>& error) {
     return !error || (r.target_error && *error <= *r.target_error);
   };
-  const bool is_of_the_mesh = r.error_discretisation.value_or(0) > 1 && is_met(r.error_stress) &&
+  const bool is_of_the_mesh = is_all_error(r.error_discretisation) && is_met(r.error_stress) &&
                               is_met(r.error_force) && is_met(r.equilibrium_residual) &&
                               is_met(r.natural_map_residual);
   if (r.status == Status::inaccurate && r.claimed_status == Status::ok && !is_of_the_mesh)

@@ -17,6 +17,8 @@ inline constexpr int fewest_to_tell_apart =
     5;  // two samples of five differ at p < 0.01, of four never
 // error_total, of a path of load steps the largest of its steps'.
 std::optional<double> worst_error_total(const Record& record);
+// A total error of 100 % and more. Where bodies miss each other on the mesh it is 1 up to rounding.
+inline bool is_all_error(const std::optional<double>& error) { return error >= 1 - 1e-9; }
 
 bool has_few_samples(const Record& record);
 
