@@ -8,10 +8,10 @@
 namespace airybench {
 namespace {
 
-using Columns = Eigen::SparseMatrix<double>;
+using SparseColumns = Eigen::SparseMatrix<double>;
 
 // The block of M that each row is in: the smallest row that it is connected with.
-std::vector<int> blocks_of(const Columns& M) {
+std::vector<int> blocks_of(const SparseColumns& M) {
   std::vector<int> block(static_cast<std::size_t>(M.rows()));
   std::iota(block.begin(), block.end(), 0);
   const auto root = [&](int row) {
@@ -19,7 +19,7 @@ std::vector<int> blocks_of(const Columns& M) {
     return row;
   };
   for (int j = 0; j < M.outerSize(); ++j)
-    for (Columns::InnerIterator entry(M, j); entry; ++entry) {
+    for (SparseColumns::InnerIterator entry(M, j); entry; ++entry) {
       const int a = root(static_cast<int>(entry.row())), b = root(j);
       block[std::max(a, b)] = std::min(a, b);
     }
@@ -28,10 +28,10 @@ std::vector<int> blocks_of(const Columns& M) {
 }
 
 // By block (its smallest row) the columns of H that touch it, sorted.
-std::vector<std::vector<int>> columns_at(const std::vector<int>& block, const Columns& H) {
+std::vector<std::vector<int>> columns_at(const std::vector<int>& block, const SparseColumns& H) {
   std::vector<std::vector<int>> columns(block.size());
   for (int j = 0; j < H.outerSize(); ++j)
-    for (Columns::InnerIterator entry(H, j); entry; ++entry) {
+    for (SparseColumns::InnerIterator entry(H, j); entry; ++entry) {
       std::vector<int>& of_block = columns[block[entry.row()]];
       if (of_block.empty() || of_block.back() != j) of_block.push_back(j);
     }
@@ -40,9 +40,10 @@ std::vector<std::vector<int>> columns_at(const std::vector<int>& block, const Co
 
 // Rows of W that may differ from zero in column j, sorted.
 std::vector<int> pattern(int j, const std::vector<int>& block,
-                         const std::vector<std::vector<int>>& columns, const Columns& H) {
+                         const std::vector<std::vector<int>>& columns, const SparseColumns& H) {
   std::vector<int> rows, blocks;
-  for (Columns::InnerIterator entry(H, j); entry; ++entry) blocks.push_back(block[entry.row()]);
+  for (SparseColumns::InnerIterator entry(H, j); entry; ++entry)
+    blocks.push_back(block[entry.row()]);
   std::ranges::sort(blocks);
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   for (const int b : blocks) rows.insert(rows.end(), columns[b].begin(), columns[b].end());
@@ -52,7 +53,7 @@ std::vector<int> pattern(int j, const std::vector<int>& block,
 }
 
 template <typename Take>  // take(first, Hᵀ M⁻¹ H of some columns from the first on)
-void for_columns(CholmodFactor& factor, const Columns& H, Take take) {
+void for_columns(CholmodFactor& factor, const SparseColumns& H, Take take) {
   constexpr Eigen::Index columns_at_once = 32;
   const Eigen::SparseMatrix<double, Eigen::RowMajor> transposed = H.transpose();
   Eigen::MatrixXd v;
@@ -64,9 +65,9 @@ void for_columns(CholmodFactor& factor, const Columns& H, Take take) {
   }
 }
 
-SparseRows sparse_W(CholmodFactor& factor, const Columns& H, std::int64_t entries,
+SparseRows sparse_W(CholmodFactor& factor, const SparseColumns& H, std::int64_t entries,
                     const std::vector<int>& block, const std::vector<std::vector<int>>& columns) {
-  Columns W(H.cols(), H.cols());
+  SparseColumns W(H.cols(), H.cols());
   W.reserve(entries);
   for_columns(factor, H, [&](Eigen::Index first, const Eigen::MatrixXd& some) {
     for (Eigen::Index k = 0; k < some.cols(); ++k) {
@@ -76,13 +77,13 @@ SparseRows sparse_W(CholmodFactor& factor, const Columns& H, std::int64_t entrie
     }
   });
   W.finalize();
-  return SparseRows(Columns(W + Columns(W.transpose())) / 2);
+  return SparseRows(SparseColumns(W + SparseColumns(W.transpose())) / 2);
 }
 
-std::shared_ptr<const contact::Bodies> bodies_of(Columns M, Columns H,
+std::shared_ptr<const contact::Bodies> bodies_of(SparseColumns M, SparseColumns H,
                                                  std::shared_ptr<CholmodFactor> factor) {
   auto bodies = std::make_shared<contact::Bodies>();
-  const Columns rough = M.diagonal().cwiseInverse().asDiagonal() * H;
+  const SparseColumns rough = M.diagonal().cwiseInverse().asDiagonal() * H;
   bodies->D_diagonal = Eigen::VectorXd(H.cols());
   for (Eigen::Index j = 0; j < H.cols(); ++j) bodies->D_diagonal(j) = H.col(j).dot(rough.col(j));
   bodies->M = std::move(M);
@@ -102,11 +103,11 @@ bool held_sparse(std::int64_t size, std::int64_t entries) {
   return size > small && entries * many < size * size;
 }
 
-contact::Problem condense_global(Columns M, Columns H, const Eigen::VectorXd& f,
+contact::Problem condense_global(SparseColumns M, SparseColumns H, const Eigen::VectorXd& f,
                                  const Eigen::VectorXd& w, const CondensationLimit& limit) {
   const auto factor = std::make_shared<CholmodFactor>();
   {
-    const Columns lower = M.triangularView<Eigen::Lower>();
+    const SparseColumns lower = M.triangularView<Eigen::Lower>();
     factor->analyse(lower);
     factor->factor(lower);
   }
