@@ -73,25 +73,14 @@ void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
 }
 
 // Refuses rollers of a piece that are all parallel, as an edge holds the rotation and one
-// translation only, where no contact edge may hold it.
-void check_held(const Mesh& mesh, const std::vector<bool>& rollers, const MeshPieces& pieces,
-                int piece) {
-  std::optional<Eigen::Vector2d> along;  // direction that the rollers so far leave free
-  for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
-    const auto [a, b] = mesh.boundary[row].vertices;
-    if (pieces.of_vertex[a] != piece || mesh.boundary[row].role == BoundaryRole::force) continue;
-    if (mesh.boundary[row].role == BoundaryRole::contact) return;
-    if (!rollers[row]) return;
-    const EdgeFrame frame = edge_frame(mesh.vertices[a], mesh.vertices[b]);
-    if (!along) along = frame.tangent;
-    if (std::abs(frame.normal.dot(*along)) > straight_roller) return;
-  }
-  if (!along) return;  // pose() refuses a piece without displacement edges
-  if (along->x() < -straight_roller || (along->x() < straight_roller && along->y() < 0))
-    *along *= -1;
+// translation only, where no contact edge may hold it. pose() refuses pieces without any support.
+void check_held(const PieceSupport& support) {
+  if (!support.is_free || support.in_contact || !support.along) return;
+  Eigen::Vector2d along = *support.along;
+  if (along.x() < -straight_roller || (along.x() < straight_roller && along.y() < 0)) along *= -1;
   const auto tidy = [](double x) { return std::abs(x) < straight_roller ? 0 : x; };
   throw TransformError("support: normal leaves the body free to move along " +
-                       shown(Eigen::Vector2d(along->unaryExpr(tidy))) +
+                       shown(Eigen::Vector2d(along.unaryExpr(tidy))) +
                        " (allowed: supports that hold it, or contact edges)");
 }
 
@@ -139,8 +128,8 @@ void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displace
       return Eigen::Vector2d::Zero();
     };
   if (!rolling) return;
-  const MeshPieces pieces = pieces_of(mesh);
-  for (int piece = 0; piece < pieces.count; ++piece) check_held(mesh, rollers, pieces, piece);
+  for (const PieceSupport& support : supports_of(mesh, rollers, pieces_of(mesh)))
+    check_held(support);
   loads.rollers = std::move(rollers);
 }
 

@@ -283,11 +283,11 @@ double work_of_loads(const Problem& problem, const DisplacementField& u) {
   return nodal_loads(problem, displacement_degree(problem, u)).cwiseProduct(u).sum();
 }
 
-double work_on_free_motion(const Problem& problem) {
-  if (problem.free.amounts_mm.size() == 0) return 0;
-  return work_of_loads(
-      problem, with_motion(problem, DisplacementField::Zero(2, displacement_nodes(problem)),
-                           [&](const Eigen::Vector2d& x, int v) { return problem.free.at(x, v); }));
+double work_on_free_motion(const Problem& problem, const FreeMotions& free) {
+  if (free.amounts_mm.size() == 0) return 0;
+  return work_of_loads(problem,
+                       with_motion(problem, DisplacementField::Zero(2, displacement_nodes(problem)),
+                                   [&](const auto& x, int vertex) { return free.at(x, vertex); }));
 }
 
 #define AIRYBENCH_INSTANTIATE(k)                                                                 \

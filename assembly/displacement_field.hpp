@@ -94,7 +94,7 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem, int degre
 
 // ∫ b·u + ∫_{Γ_F} f·u, N mm.
 double work_of_loads(const Problem& problem, const DisplacementField& u);
-// The same of free pieces' own motions, zero where there are none.
-double work_on_free_motion(const Problem& problem);
+// The same of free pieces' own motions, of these amounts, zero where there are none.
+double work_on_free_motion(const Problem& problem, const FreeMotions& free);
 
 }  // namespace airybench

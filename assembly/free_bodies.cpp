@@ -10,12 +10,9 @@ Eigen::VectorXd loads_on_motions(const Problem& problem) {
   const auto count = static_cast<Eigen::Index>(problem.free.motions.size());
   Eigen::VectorXd loads(count);
   FreeMotions moved = problem.free;
-  const DisplacementField none = DisplacementField::Zero(2, displacement_nodes(problem));
   for (Eigen::Index m = 0; m < count; ++m) {
     moved.amounts_mm = Eigen::VectorXd::Unit(count, m);
-    loads(m) = work_of_loads(problem, with_motion(problem, none, [&](const auto& x, int vertex) {
-                               return moved.at(x, vertex);
-                             }));
+    loads(m) = work_on_free_motion(problem, moved);
   }
   return loads;
 }

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "assembly/edge_forces.hpp"
@@ -13,32 +12,7 @@
 namespace airybench {
 namespace {
 
-// What the displacement edges of a piece leave free.
-struct Support {
-  bool is_free = true, in_contact = false;
-  std::optional<Eigen::Vector2d> along;  // of parallel rollers; none: all motions
-};
-
-std::vector<Support> supports_of(const Mesh& mesh, const std::vector<bool>& rollers,
-                                 const MeshPieces& pieces) {
-  std::vector<Support> supports(static_cast<std::size_t>(pieces.count));
-  for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
-    const auto [a, b] = mesh.boundary[row].vertices;
-    Support& own = supports[pieces.of_vertex[a]];
-    own.in_contact |= mesh.boundary[row].role == BoundaryRole::contact;
-    if (mesh.boundary[row].role != BoundaryRole::displacement || !own.is_free) continue;
-    if (rollers.empty() || !rollers[row]) {
-      own.is_free = false;
-      continue;
-    }
-    const EdgeFrame frame = edge_frame(mesh.vertices[a], mesh.vertices[b]);
-    if (!own.along) own.along = frame.tangent;
-    own.is_free = std::abs(frame.normal.dot(*own.along)) <= straight_roller;
-  }
-  return supports;
-}
-
-std::vector<RigidMotion> motions_of(const Support& support, const Eigen::Vector2d& centre,
+std::vector<RigidMotion> motions_of(const PieceSupport& support, const Eigen::Vector2d& centre,
                                     double radius) {
   if (support.along) return {{centre, *support.along, 0}};
   return {{centre, {1, 0}, 0}, {centre, {0, 1}, 0}, {centre, {0, 0}, 1 / radius}};
@@ -49,7 +23,7 @@ int larger_component(const Eigen::Vector2d& v) {
 }
 
 // Far from each other, so that pins are no hinge: the second holds the turn about the first.
-void add_pins(const Mesh& mesh, const std::vector<int>& rows, const Support& support,
+void add_pins(const Mesh& mesh, const std::vector<int>& rows, const PieceSupport& support,
               const Eigen::Vector2d& centre, std::vector<Pin>& pins) {
   const auto start = [&](int row) { return mesh.vertices[mesh.boundary[row].vertices[0]]; };
   const auto farthest_from = [&](const Eigen::Vector2d& x) {
@@ -72,6 +46,25 @@ void add_pins(const Mesh& mesh, const std::vector<int>& rows, const Support& sup
 
 }  // namespace
 
+std::vector<PieceSupport> supports_of(const Mesh& mesh, const std::vector<bool>& rollers,
+                                      const MeshPieces& pieces) {
+  std::vector<PieceSupport> supports(static_cast<std::size_t>(pieces.count));
+  for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
+    const auto [a, b] = mesh.boundary[row].vertices;
+    PieceSupport& own = supports[pieces.of_vertex[a]];
+    own.in_contact |= mesh.boundary[row].role == BoundaryRole::contact;
+    if (mesh.boundary[row].role != BoundaryRole::displacement || !own.is_free) continue;
+    if (rollers.empty() || !rollers[row]) {
+      own.is_free = false;
+      continue;
+    }
+    const EdgeFrame frame = edge_frame(mesh.vertices[a], mesh.vertices[b]);
+    if (!own.along) own.along = frame.tangent;
+    own.is_free = std::abs(frame.normal.dot(*own.along)) <= straight_roller;
+  }
+  return supports;
+}
+
 Eigen::Vector2d FreeMotions::at(const Eigen::Vector2d& x, int vertex) const {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (Eigen::Index m = 0; m < amounts_mm.size(); ++m)
@@ -89,8 +82,8 @@ bool FreeMotions::pins_down(int row, int end, int component) const {
 FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
                          const MeshPieces& pieces) {
   FreeMotions result;
-  const std::vector<Support> supports = supports_of(mesh, rollers, pieces);
-  const auto is_free = [](const Support& own) { return own.is_free && own.in_contact; };
+  const std::vector<PieceSupport> supports = supports_of(mesh, rollers, pieces);
+  const auto is_free = [](const PieceSupport& own) { return own.is_free && own.in_contact; };
   if (std::ranges::none_of(supports, is_free)) return result;
   result.piece_of_vertex = pieces.of_vertex;
   std::vector<bool> of_another_role(mesh.vertices.size(), false);
@@ -98,7 +91,7 @@ FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
     if (edge.role != BoundaryRole::force)
       for (const int v : edge.vertices) of_another_role[v] = true;
   for (int piece = 0; piece < pieces.count; ++piece) {
-    const Support& own = supports[piece];
+    const PieceSupport& own = supports[piece];
     if (!is_free(own)) continue;
     Eigen::AlignedBox2d box;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
@@ -116,6 +109,11 @@ FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
   return result;
 }
 
+std::string place_of_piece(const Mesh& mesh, const std::vector<int>& piece_of_vertex, int piece) {
+  const auto v = std::ranges::find(piece_of_vertex, piece) - piece_of_vertex.begin();
+  return "the piece at the vertex " + shown(mesh.vertices[static_cast<std::size_t>(v)]);
+}
+
 std::string name_of_piece(const Mesh& mesh, const std::vector<int>& piece_of_vertex, int piece) {
   std::set<int> bodies, of_others;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -123,8 +121,7 @@ std::string name_of_piece(const Mesh& mesh, const std::vector<int>& piece_of_ver
         .insert(mesh.triangle_body[t]);
   if (bodies.size() == 1 && !of_others.contains(*bodies.begin()))
     return "the body " + mesh.body_names[*bodies.begin()];
-  const auto v = std::ranges::find(piece_of_vertex, piece) - piece_of_vertex.begin();
-  return "the piece at the vertex " + shown(mesh.vertices[static_cast<std::size_t>(v)]);
+  return place_of_piece(mesh, piece_of_vertex, piece);
 }
 
 }  // namespace airybench

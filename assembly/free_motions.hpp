@@ -7,12 +7,24 @@
 // and w has the stresses of u. free_bodies.hpp (solvers/contact) finds a.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "assembly/rigid_motion.hpp"
 #include "mesh/mesh.hpp"
 
 namespace airybench {
+
+// What the displacement edges of a piece leave free: nothing, the motion along parallel rollers, or
+// without such edges all motions.
+struct PieceSupport {
+  bool is_free = true, in_contact = false;
+  std::optional<Eigen::Vector2d> along;  // of parallel rollers
+};
+// Per piece. rollers: per row of Mesh::boundary; empty: none.
+std::vector<PieceSupport> supports_of(const Mesh& mesh, const std::vector<bool>& rollers,
+                                      const MeshPieces& pieces);
 
 struct FreeMotion {
   int piece;  // of MeshPieces
@@ -38,12 +50,14 @@ struct FreeMotions {
   bool pins_down(int row, int end, int component) const;
 };
 
-// Of pieces with contact edges: all three, or the one that parallel rollers leave. rollers: per row
-// of Mesh::boundary; empty: none. A pin is at no vertex of another role.
+// Of pieces with contact edges: all three, or the one that parallel rollers leave. A pin is at no
+// vertex of another role.
 FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
                          const MeshPieces& pieces);
 
-// As users know it: the name of its body if it has one of its own, else by a vertex.
+// "the piece at the vertex [0, 0]".
+std::string place_of_piece(const Mesh& mesh, const std::vector<int>& piece_of_vertex, int piece);
+// As users know it: the name of its body if it has one of its own, else its place.
 std::string name_of_piece(const Mesh& mesh, const std::vector<int>& piece_of_vertex, int piece);
 
 }  // namespace airybench

@@ -117,10 +117,10 @@ void check_pieces(const Scene& scene, const ReachableContact& contact) {
   }
   const auto alone = std::ranges::find(joined, false);
   if (alone == joined.end()) return;
-  const auto v = std::ranges::find(pieces.of_vertex, alone - joined.begin());
-  const Eigen::Vector2d& at = mesh.vertices[static_cast<std::size_t>(v - pieces.of_vertex.begin())];
+  const int piece = static_cast<int>(alone - joined.begin());
   fail(scene, "mesh " + mesh.name,
-       std::to_string(pieces.count) + " separate pieces, the piece at the vertex " + shown(at),
+       std::to_string(pieces.count) + " separate pieces, " +
+           place_of_piece(mesh, pieces.of_vertex, piece),
        "presses on no other (allowed: one piece, or pieces that contacts join; in Gmsh, "
        "Coherence or BooleanFragments joins surfaces that touch)");
 }

@@ -92,11 +92,11 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
     if (own.status != Status::ok) return;
     if (bound == Bound::displacement) {
       const auto& [u, free_motion_mm] = own_u[static_cast<std::size_t>(step)];
-      DualSystem of_u = posed;
+      std::optional<DualSystem> moved;  // as these displacements, where a body is free to
       if (free_motion_mm.size() > 0)
-        set_load_case(of_u, std::make_shared<const Problem>(
-                                with_free_motion(*posed.problem, free_motion_mm)));
-      std::tie(result.error, result.u) = error_of_displacements(of_u, own, u);
+        set_load_case(moved.emplace(posed), std::make_shared<const Problem>(
+                                                with_free_motion(*posed.problem, free_motion_mm)));
+      std::tie(result.error, result.u) = error_of_displacements(moved ? *moved : posed, own, u);
     } else {
       result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
       result.error = constitutive_error(posed, own.stress, own.F_C, result.u);

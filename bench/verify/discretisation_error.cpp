@@ -129,8 +129,8 @@ void note_bounds(const DualSystem& system, const Fields& fields, double highest_
     (F_n < 0 ? pressing : pulling) += std::abs(F_n);
     lower += F_n * more_gap(p);
   }
-  const double upper =
-      energy_of_u - work_of_loads(*system.problem, u) - work_on_free_motion(*system.problem);
+  const double upper = energy_of_u - work_of_loads(*system.problem, u) -
+                       work_on_free_motion(*system.problem, system.problem->free);
   const double allowance = pressing * std::max(0.0, highest_gap) +
                            pulling * u.lpNorm<Eigen::Infinity>() +
                            rounding * (energy + std::abs(lower) + std::abs(upper));

@@ -167,7 +167,8 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
 // Of the gap without free motions, where F_C balances the loads on these.
 double work_of_gap(const DualSystem& system, const Eigen::VectorXd& F_C) {
   const Eigen::VectorXd& gap = system.contact.gap;
-  return gap.size() > 0 ? gap.dot(F_C) - work_on_free_motion(*system.problem) : 0;
+  return gap.size() > 0 ? gap.dot(F_C) - work_on_free_motion(*system.problem, system.problem->free)
+                        : 0;
 }
 
 std::string digits(double value) { return value == 0 ? "0" : fmt::format("{:.4e}", value); }

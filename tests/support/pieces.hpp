@@ -54,36 +54,36 @@ inline void add_block(Mesh& mesh, const std::string& body, const Eigen::Vector2d
   name_body(mesh, body);
 }
 
-// The sector of a ring between these radii (in order) and angles as `around` columns of cells; its
-// ends are labelled, at both angles, as are its faces.
-struct RingSector {
-  std::vector<double> radii_mm;
+// Both ends of a sector of a ring: where they are, and their labels.
+struct SectorEnds {
   std::array<double, 2> angles;
-  int around;
-  std::string inside, outside;
-  std::array<std::string, 2> ends;
+  std::array<std::string, 2> labels;
 };
-inline void add_ring_sector(Mesh& mesh, const std::string& body, const RingSector& ring) {
+// The sector of a ring between these radii (in order) as `around` columns of cells.
+inline void add_ring_sector(Mesh& mesh, const std::string& body,
+                            const std::vector<double>& radii_mm, int around,
+                            const std::string& inside, const std::string& outside,
+                            const SectorEnds& ends) {
   const int first = static_cast<int>(mesh.vertices.size()),
-            across = static_cast<int>(ring.radii_mm.size()) - 1;
+            across = static_cast<int>(radii_mm.size()) - 1;
   const auto vertex = [&](int i, int j) { return first + i * (across + 1) + j; };
   const auto exact = [](double component) { return std::abs(component) < 1e-15 ? 0 : component; };
-  for (int i = 0; i <= ring.around; ++i) {
-    const double angle = std::lerp(ring.angles[0], ring.angles[1], double(i) / ring.around);
-    for (const double r : ring.radii_mm)
+  for (int i = 0; i <= around; ++i) {
+    const double angle = std::lerp(ends.angles[0], ends.angles[1], double(i) / around);
+    for (const double r : radii_mm)
       mesh.vertices.emplace_back(r * exact(std::cos(angle)), r * exact(std::sin(angle)));
   }
-  for (int i = 0; i < ring.around; ++i) {
+  for (int i = 0; i < around; ++i) {
     for (int j = 0; j < across; ++j) {
       mesh.triangles.push_back({vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
       mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i + 1, j)});
     }
-    add_edge(mesh, vertex(i + 1, 0), vertex(i, 0), ring.inside);
-    add_edge(mesh, vertex(i, across), vertex(i + 1, across), ring.outside);
+    add_edge(mesh, vertex(i + 1, 0), vertex(i, 0), inside);
+    add_edge(mesh, vertex(i, across), vertex(i + 1, across), outside);
   }
   for (int j = 0; j < across; ++j) {
-    add_edge(mesh, vertex(0, j), vertex(0, j + 1), ring.ends[0]);
-    add_edge(mesh, vertex(ring.around, j + 1), vertex(ring.around, j), ring.ends[1]);
+    add_edge(mesh, vertex(0, j), vertex(0, j + 1), ends.labels[0]);
+    add_edge(mesh, vertex(around, j + 1), vertex(around, j), ends.labels[1]);
   }
   name_body(mesh, body);
 }

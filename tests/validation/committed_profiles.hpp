@@ -7,6 +7,7 @@
 
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
+#include "tests/validation/edge_tractions.hpp"
 
 namespace airybench::testing {
 
@@ -27,6 +28,22 @@ inline void expect_committed(const std::string& what, int refined, const std::st
   ASSERT_NE(row, nullptr) << what << " " << quantity << " at " << x;
   EXPECT_NEAR(value, std::stod(row->front()), 1e-6 * size)
       << what << " " << quantity << " at " << x;
+}
+
+// Of the whole face, numbers of the size 1.
+inline void expect_committed(const std::string& what, int refined,
+                             std::initializer_list<std::pair<const char*, double>> quantities) {
+  for (const auto& [quantity, value] : quantities)
+    expect_committed(what, refined, quantity, 0, value, 1);
+}
+// Pressure and shear of its edges, MPa, of the size 10.
+inline void expect_committed(const std::string& what, int refined,
+                             const std::vector<EdgeTraction>& edges) {
+  for (const EdgeTraction& edge : edges) {
+    const double x = edge.middle().x();
+    expect_committed(what, refined, "pressure", x, edge.pressure, 10);
+    expect_committed(what, refined, "shear", x, edge.shear, 10);
+  }
 }
 
 }  // namespace airybench::testing

@@ -137,12 +137,12 @@ TEST(CattaneoMindlin, ConvergesToHalfWidthsAndPressure) {
     const double worst =
         std::max({std::abs(normal.half_width / a - 1), std::abs(normal.height / p0 - 1),
                   std::abs(stick.half_width / c - 1)});
-    for (const auto& [quantity, value] : {std::pair("P", P),
-                                          {"Q", Q},
-                                          {"a", normal.half_width},
-                                          {"p0", normal.height},
-                                          {"c", stick.half_width}})
-      expect_committed("cattaneo_mindlin", refined, quantity, 0, value, 1);
+    expect_committed("cattaneo_mindlin", refined,
+                     {{"P", P},
+                      {"Q", Q},
+                      {"a", normal.half_width},
+                      {"p0", normal.height},
+                      {"c", stick.half_width}});
     EXPECT_LT(worst, before) << refined;
     before = worst;
     if (refined < 2) continue;
@@ -161,9 +161,8 @@ TEST(CattaneoMindlin, ConvergesToHalfWidthsAndPressure) {
             0.01 * mu * p0)
             << x;
       }
-      expect_committed("cattaneo_mindlin", refined, "pressure", x, edge.pressure, 10);
-      expect_committed("cattaneo_mindlin", refined, "shear", x, edge.shear, 10);
     }
+    expect_committed("cattaneo_mindlin", refined, face.edges);
   }
 }
 
