@@ -6,6 +6,7 @@
 
 #include "assembly/edge_forces.hpp"
 #include "mesh/transform_error.hpp"
+#include "support/lists.hpp"
 
 namespace airybench {
 namespace {
@@ -64,12 +65,10 @@ void check(const std::string& label, const ContactValues& given) {
 void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
   std::set<std::string> labels;
   for (const BoundaryEdge& edge : mesh.boundary) labels.insert(boundary_label(mesh, edge));
-  std::string valid;
-  for (const std::string& label : labels) valid += (valid.empty() ? "" : ", ") + label;
   for (const auto& [label, values] : conditions)
     if (!labels.contains(label))
       throw TransformError(label + ": no such group in the mesh " + mesh.name +
-                           " (its groups: " + valid + ")");
+                           " (its groups: " + joined(labels) + ")");
 }
 
 // Refuses rollers of a piece that are all parallel, as an edge holds the rotation and one

@@ -19,7 +19,13 @@ struct EdgeValues {
 
 EdgeValues values_of(const Mesh& mesh, int row, const Scene& scene) {
   static const ContactValues none;
-  const auto given = scene.boundary.find(boundary_label(mesh, mesh.boundary[row]));
+  static const std::optional<Wall> no_wall;
+  const std::string label = boundary_label(mesh, mesh.boundary[row]);
+  for (const ContactPair& pair : scene.contacts)
+    if (pair.has(label))
+      return {pair.friction.value_or(scene.friction),
+              pair.has_first(label) ? pair.clearance_mm.value_or(0) : 0, no_wall, no_wall};
+  const auto given = scene.boundary.find(label);
   const ContactValues& own = given == scene.boundary.end() ? none : given->second.contact;
   return {own.friction.value_or(scene.friction), own.clearance_mm.value_or(scene.clearance_mm),
           own.wall ? own.wall : scene.wall, own.face ? own.face : scene.face};
@@ -154,12 +160,11 @@ ContactGap contact_gap(const ReachableContact& contact, const Scene& scene) {
       const auto [a, m, b] = points_of(mesh, row);
       gap.start = a;
       gap.along = (b - a) / (b - a).squaredNorm();
+      gap.clearance_mm = values.clearance_mm;
       if (const auto& edge = contact.matched[row]) {
-        gap.clearance_mm = edge->clearance_mm;
         gap.given = edge->gap_mm;
         continue;
       }
-      gap.clearance_mm = values.clearance_mm;
       gap.middle = middle;
       gap.curvature = curvature;
       if (!values.wall) continue;
@@ -210,9 +215,7 @@ std::vector<double> contact_friction(const ReachableContact& contact, const Scen
   std::vector<double> friction(mesh.boundary.size(), 0);
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
     if (mesh.boundary[row].role == BoundaryRole::contact)
-      friction[static_cast<std::size_t>(row)] = contact.matched[row]
-                                                    ? contact.matched[row]->friction
-                                                    : values_of(mesh, row, scene).friction;
+      friction[static_cast<std::size_t>(row)] = values_of(mesh, row, scene).friction;
   return friction;
 }
 

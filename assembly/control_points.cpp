@@ -20,6 +20,7 @@ void pair_points(const Problem& problem, const PrescribedDisplacement& prescribe
   std::map<int, int> point_of_node;
   for (int i = 0; i < points.law.count; ++i) point_of_node[points.node[i]] = i;
   points.law.opposite.assign(static_cast<std::size_t>(points.law.count), ContactPoints::no_point);
+  const std::vector<ContactOffset> own = offset;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     const int other = problem.opposite_of(row);
     if (other == Problem::no_row) continue;
@@ -38,10 +39,12 @@ void pair_points(const Problem& problem, const PrescribedDisplacement& prescribe
           friction[point] = friction[two->second] = 0;
       } else if (prescribed.at[across]) {
         const Eigen::Vector2d moved = prescribed.u.col(across) + beyond.motion_mm;
-        ContactOffset& own = offset[point];
-        own.gap_mm = offset_coefficients<p>(problem, row)[k].gap_mm + beyond.gap_mm +
-                     points.normal[point].dot(moved);
-        own.slid_mm += points.frame(point).col(1).dot(moved) + beyond.slid_mm;
+        offset[point].gap_mm = own[point].gap_mm + beyond.gap_mm + points.normal[point].dot(moved);
+        if (points.on_roller[point])
+          friction[point] = 0;
+        else
+          offset[point].slid_mm =
+              own[point].slid_mm + beyond.slid_mm + points.frame(point).col(1).dot(moved);
       }
     }
   }

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+
+#include <unsupported/Eigen/BVH>
 
 #include "assembly/edge_forces.hpp"
 
@@ -33,11 +36,9 @@ class Matcher {
  public:
   Matcher(Mesh& mesh, std::array<MatchingFace, 2> faces, double reach_mm)
       : mesh_(mesh), face_(std::move(faces)), reach_mm_(reach_mm) {
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      if (std::ranges::any_of(mesh_.triangles[t], [&](int v) {
-            return face_[0].normal.contains(v) || face_[1].normal.contains(v);
-          }))
-        at_faces_.push_back(t);
+    for (const MatchingFace& face : face_)
+      for (const auto& [v, n] : face.normal) triangles_at_[v];
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) put_at_vertices(t);
   }
 
   FaceMatching match() {
@@ -52,43 +53,74 @@ class Matcher {
   double length(int row) const { return (x(ends(row)[1]) - x(ends(row)[0])).norm(); }
   Point place(int row, double s) const { return (1 - s) * x(ends(row)[0]) + s * x(ends(row)[1]); }
   Point edge_normal(int row) const { return edge_frame(x(ends(row)[0]), x(ends(row)[1])).normal; }
-  bool is_nearer(const std::optional<Hit>& best, double s, double t) const {
-    return s >= 0 && s <= 1 && std::abs(t) <= reach_mm_ &&
-           (!best || std::abs(t) < std::abs(best->distance));
+  // From a vertex of the first face along its normal to an edge of the second.
+  std::optional<Hit> on_second(int v, int row) const {
+    const Point n = face_[0].normal.at(v);
+    const auto [from, to] = ends(row);
+    const Point along = x(to) - x(from), d = x(v) - x(from);
+    const double across = cross(along, n);
+    if (edge_normal(row).dot(n) > -least_facing || across == 0) return {};
+    return within_reach({row, clamped(cross(d, n) / across), cross(d, along) / across});
+  }
+  // From a vertex of the second face against the normal at the place met on an edge of the first:
+  // with x(s) and n(s) linear along it, cross(v − x(s), n(s)) = 0 is quadratic in s.
+  std::optional<Hit> on_first(int v, int row) const {
+    const auto [from, to] = ends(row);
+    const Point d = x(v) - x(from), along = x(to) - x(from), n = face_[0].normal.at(from),
+                turn = face_[0].normal.at(to) - n;
+    if (edge_normal(row).dot(face_[1].normal.at(v)) > -least_facing) return {};
+    const double a = -cross(along, turn), b = cross(d, turn) - cross(along, n), c = cross(d, n);
+    const double root = b * b - 4 * a * c;
+    if (root < 0) return {};
+    // The root that stays where a is zero.
+    const double at = clamped(-2 * c / (b + std::copysign(std::sqrt(root), b)));
+    return within_reach({row, at, (x(v) - place(row, at)).dot((n + at * turn).normalized())});
+  }
+  std::optional<Hit> on_other(int side, int v, int row) const {
+    return side == 0 ? on_second(v, row) : on_first(v, row);
+  }
+  std::optional<Hit> within_reach(const Hit& hit) const {
+    if (hit.s >= 0 && hit.s <= 1 && std::abs(hit.distance) <= reach_mm_) return hit;
+    return {};
   }
 
-  // From a vertex of the first face along its normal.
-  std::optional<Hit> on_second(int v) const {
-    const Point n = face_[0].normal.at(v);
-    std::optional<Hit> best;
-    for (const int row : face_[1].rows) {
-      const auto [from, to] = ends(row);
-      const Point along = x(to) - x(from), d = x(v) - x(from);
-      const double across = cross(along, n);
-      if (edge_normal(row).dot(n) > -least_facing || across == 0) continue;
-      const double s = clamped(cross(d, n) / across), t = cross(d, along) / across;
-      if (is_nearer(best, s, t)) best = Hit{row, s, t};
+  // The nearest hit among edges of one face, for Eigen's BVMinimize.
+  struct Nearest {
+    using Scalar = double;
+    const Matcher& matcher;
+    int side, v;
+    std::optional<Hit> best = {};
+    double minimumOnVolume(const Eigen::AlignedBox2d& box) const {
+      return box.exteriorDistance(matcher.x(v));
     }
-    return best;
+    double minimumOnObject(int row) {
+      const std::optional<Hit> hit = matcher.on_other(side, v, row);
+      if (!hit) return std::numeric_limits<double>::infinity();
+      if (!best || std::abs(hit->distance) < std::abs(best->distance)) best = hit;
+      return std::abs(hit->distance);
+    }
+  };
+  using Tree = Eigen::KdBVH<double, 2, int>;  // rows of a face, as they stand
+  Tree tree_of(int side) const {
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const int row : face_[side].rows) {
+      const auto [a, b] = ends(row);
+      boxes.push_back(Eigen::AlignedBox2d(x(a)).extend(x(b)));
+    }
+    const std::vector<int>& rows = face_[side].rows;
+    return {rows.begin(), rows.end(), boxes.begin(), boxes.end()};
   }
-  // From a vertex of the second face against the normal at the place met: with x(s) and n(s) linear
-  // along an edge, cross(v − x(s), n(s)) = 0 is quadratic in s.
-  std::optional<Hit> on_first(int v) const {
-    std::optional<Hit> best;
-    for (const int row : face_[0].rows) {
-      const auto [from, to] = ends(row);
-      const Point d = x(v) - x(from), along = x(to) - x(from), n = face_[0].normal.at(from),
-                  turn = face_[0].normal.at(to) - n;
-      if (edge_normal(row).dot(face_[1].normal.at(v)) > -least_facing) continue;
-      const double a = -cross(along, turn), b = cross(d, turn) - cross(along, n), c = cross(d, n);
-      const double root = b * b - 4 * a * c;
-      if (root < 0) continue;
-      // The root that stays where a is zero.
-      const double at = clamped(-2 * c / (b + std::copysign(std::sqrt(root), b)));
-      const double t = (x(v) - place(row, at)).dot((n + at * turn).normalized());
-      if (is_nearer(best, at, t)) best = Hit{row, at, t};
-    }
-    return best;
+  // Where a vertex of a face meets the other face, whose tree it is.
+  std::optional<Hit> on_other(int side, int v, const Tree& other) const {
+    Nearest nearest{*this, side, v};
+    Eigen::BVMinimize(other, nearest);
+    return nearest.best;
+  }
+  // The same at the edges of one vertex of the other face.
+  std::optional<Hit> beside(int side, int v, const std::vector<int>& rows) const {
+    Nearest nearest{*this, side, v};
+    for (const int row : rows) nearest.minimumOnObject(row);
+    return nearest.best;
   }
   // Rounding beyond an end counts as the end.
   static double clamped(double s) {
@@ -97,14 +129,15 @@ class Matcher {
     return std::abs(s - 1) < rounding ? 1 : s;
   }
 
-  std::map<int, double> shortest_edges(int side) const {
-    std::map<int, double> shortest;
+  using RowsAt = std::map<int, std::vector<int>>;  // per vertex
+  RowsAt rows_at(int side) const {
+    RowsAt rows;
     for (const int row : face_[side].rows)
-      for (const int v : ends(row)) {
-        const auto [found, is_new] = shortest.try_emplace(v, length(row));
-        if (!is_new) found->second = std::min(found->second, length(row));
-      }
-    return shortest;
+      for (const int v : ends(row)) rows[v].push_back(row);
+    return rows;
+  }
+  double shortest(const std::vector<int>& rows) const {
+    return length(*std::ranges::min_element(rows, {}, [&](int row) { return length(row); }));
   }
 
   struct Near {
@@ -113,13 +146,14 @@ class Matcher {
   };
   // Moves vertices that nearly match; nearest first.
   std::map<int, int> snap() {
-    const std::map<int, double> first = shortest_edges(0), second = shortest_edges(1);
+    const std::array<RowsAt, 2> at = {rows_at(0), rows_at(1)};
+    const Tree first = tree_of(0);
     std::vector<Near> near;
-    for (const auto& [v, shortest] : second)
-      if (const std::optional<Hit> hit = on_first(v)) {
+    for (const auto& [v, rows] : at[1])
+      if (const std::optional<Hit> hit = on_other(1, v, first)) {
         const int end = ends(hit->row)[hit->s < 0.5 ? 0 : 1];
         const double distance = std::min(hit->s, 1 - hit->s) * length(hit->row);
-        if (distance <= snapping * std::min(shortest, first.at(end)))
+        if (distance <= snapping * std::min(shortest(rows), shortest(at[0].at(end))))
           near.push_back({distance, end, v});
       }
     std::ranges::sort(near, {}, &Near::distance);
@@ -127,7 +161,8 @@ class Matcher {
     std::set<int> taken;
     for (const Near& both : near) {
       if (twin.contains(both.first) || taken.contains(both.second)) continue;
-      if (!is_together(both, first.at(both.first)) && !move(both)) continue;
+      const std::array<std::vector<int>, 2> rows = {at[0].at(both.first), at[1].at(both.second)};
+      if (!is_together(both, shortest(rows[0])) && !move(both, rows)) continue;
       twin[both.first] = both.second;
       taken.insert(both.second);
     }
@@ -136,12 +171,12 @@ class Matcher {
   static bool is_together(const Near& both, double edge_mm) {
     return both.distance <= 1e-9 * edge_mm;
   }
-  bool move(const Near& both) {
+  bool move(const Near& both, const std::array<std::vector<int>, 2>& rows) {
     if (!face_[1].fixed.contains(both.second))
-      if (const std::optional<Hit> hit = on_second(both.first))
+      if (const std::optional<Hit> hit = beside(0, both.first, rows[1]))
         return move_along(1, both.second, *hit);
     if (!face_[0].fixed.contains(both.first))
-      if (const std::optional<Hit> hit = on_first(both.second))
+      if (const std::optional<Hit> hit = beside(1, both.second, rows[0]))
         return move_along(0, both.first, *hit);
     return false;
   }
@@ -157,9 +192,10 @@ class Matcher {
     const Point before = x(v);
     std::vector<double> areas;
     const auto visit = [&](auto what) {
-      for (const std::size_t t : at_faces_)
-        if (const auto& [a, b, c] = mesh_.triangles[t]; a == v || b == v || c == v)
-          what(cross_area(x(a), x(b), x(c)));
+      for (const std::size_t t : triangles_at_.at(v)) {
+        const auto& [a, b, c] = mesh_.triangles[t];
+        what(cross_area(x(a), x(b), x(c)));
+      }
     };
     visit([&](double area) { areas.push_back(area); });
     mesh_.vertices[v] = to;
@@ -180,14 +216,13 @@ class Matcher {
     std::map<int, std::vector<Node>> into[2];  // per row
     std::set<int> matched;
     for (const auto& [a, b] : twin) matched.insert(b);
-    for (const auto& [v, n] : face_[0].normal)
-      if (!twin.contains(v))
-        if (const std::optional<Hit> hit = on_second(v); hit && is_inside(hit->s))
-          into[1][hit->row].push_back({hit->s, v, normal_at(1, hit->row, hit->s)});
-    for (const auto& [v, n] : face_[1].normal)
-      if (!matched.contains(v))
-        if (const std::optional<Hit> hit = on_first(v); hit && is_inside(hit->s))
-          into[0][hit->row].push_back({hit->s, v, normal_at(0, hit->row, hit->s)});
+    const std::array<Tree, 2> trees = {tree_of(0), tree_of(1)};
+    for (const int side : {0, 1})
+      for (const auto& [v, n] : face_[side].normal)
+        if (side == 0 ? !twin.contains(v) : !matched.contains(v))
+          if (const std::optional<Hit> hit = on_other(side, v, trees[1 - side]);
+              hit && is_inside(hit->s))
+            into[1 - side][hit->row].push_back({hit->s, v, normal_at(1 - side, hit->row, hit->s)});
     for (const int side : {0, 1})
       for (auto& [row, nodes] : into[side]) {
         std::ranges::sort(nodes, {}, &Node::s);
@@ -210,9 +245,13 @@ class Matcher {
     const Point mean = ((1 - s) * face.normal.at(from) + s * face.normal.at(to)).normalized();
     return normal_of_curve(face.curve.at(row), place(row, s), mean).value_or(mean);
   }
+  void put_at_vertices(std::size_t t) {
+    for (const int v : mesh_.triangles[t])
+      if (const auto at = triangles_at_.find(v); at != triangles_at_.end()) at->second.push_back(t);
+  }
   // The triangle on the boundary edge ab, and its third vertex.
   std::pair<std::size_t, int> triangle_on(int a, int b) const {
-    for (const std::size_t t : at_faces_)
+    for (const std::size_t t : triangles_at_.at(a))
       for (int k = 0; k < 3; ++k)
         if (const auto& v = mesh_.triangles[t]; v[k] == a && v[(k + 1) % 3] == b)
           return {t, v[(k + 2) % 3]};
@@ -235,8 +274,8 @@ class Matcher {
     mesh_.boundary[row].vertices[1] = born.front().first;
     for (std::size_t i = 0; i < born.size(); ++i) {
       const int from = born[i].first, to = i + 1 < born.size() ? born[i + 1].first : b;
-      at_faces_.push_back(mesh_.triangles.size());
       mesh_.triangles.push_back({from, to, across});
+      put_at_vertices(mesh_.triangles.size() - 1);
       mesh_.triangle_body.push_back(mesh_.triangle_body[t]);
       BoundaryEdge part = mesh_.boundary[row];
       part.vertices = {from, to};
@@ -248,7 +287,8 @@ class Matcher {
   Mesh& mesh_;
   std::array<MatchingFace, 2> face_;
   double reach_mm_;
-  std::vector<std::size_t> at_faces_;  // triangles with a vertex on a face
+  // Per vertex of a face. After a split also triangles that have left it.
+  std::map<int, std::vector<std::size_t>> triangles_at_;
   std::vector<int> split_rows_;
   Problem::Matching changes_;
   int first_born_ = 0;

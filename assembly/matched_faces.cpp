@@ -8,6 +8,7 @@
 #include "assembly/contact_conditions.hpp"
 #include "assembly/face_matching.hpp"
 #include "mesh/transform_error.hpp"
+#include "support/lists.hpp"
 
 namespace airybench {
 namespace {
@@ -19,21 +20,11 @@ double diagonal_mm(const Mesh& mesh) {
   return std::hypot(extent.width_mm, extent.height_mm);
 }
 
-std::string listed(const std::vector<std::string>& labels) {
-  std::string all;
-  for (const std::string& label : labels) all += (all.empty() ? "" : ", ") + label;
-  return all;
-}
-
-std::string names_of(const ContactPair& pair) {
-  return "contacts: " + listed(pair.between[0]) + " and " + listed(pair.between[1]);
-}
-
 void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
   std::set<std::string> groups, paired;
   for (const BoundaryEdge& edge : mesh.boundary)
     if (edge.role == BoundaryRole::contact) groups.insert(boundary_label(mesh, edge));
-  const std::string valid = listed({groups.begin(), groups.end()});
+  const std::string valid = joined(groups);
   for (const ContactPair& pair : pairs)
     for (const std::vector<std::string>& labels : pair.between)
       for (const std::string& label : labels) {
@@ -93,12 +84,9 @@ class PairedEdges {
                                second = {mesh_.vertices[matching_.twin.at(a)],
                                          mesh_.vertices[matching_.twin.at(b)]},
                                n = {common_normal(a), common_normal(b)};
-    const double friction = pair_.friction.value_or(scene_.friction);
     MatchedEdge of_first, of_second;
     of_first.opposite = other;
     of_second.opposite = row;
-    of_first.friction = of_second.friction = friction;
-    of_first.clearance_mm = pair_.clearance_mm;
     const auto at = [](const std::array<Point, 2>& ends, double s) -> Point {
       return (1 - s) * ends[0] + s * ends[1];
     };
@@ -115,7 +103,7 @@ class PairedEdges {
       of_first.gap_mm[k] = gap;
       constexpr double most = 0.1;
       if (gap < -most * size_mm)
-        refuse(names_of(pair_) + ": overlap by", shown(-gap) + " mm",
+        refuse("contacts: " + names_of(pair_) + ": overlap by", shown(-gap) + " mm",
                "at " + shown(x) + " (allowed: up to a tenth of the mesh's size, " +
                    shown(most * size_mm) + " mm)");
     }
@@ -137,7 +125,7 @@ void check_two_pieces(const Mesh& mesh, const ContactPair& pair,
     for (const auto& [v, n] : faces[side].normal) of[side].insert(pieces.of_vertex[v]);
   for (const int piece : of[0])
     if (of[1].contains(piece))
-      refuse(names_of(pair), "are on one body",
+      refuse("contacts: " + names_of(pair), "are on one body",
              "of the mesh " + mesh.name + " (allowed: groups of different bodies)");
 }
 
@@ -149,7 +137,7 @@ void check_apart(const Mesh& mesh, const ContactPair& pair,
     if (edge.role != BoundaryRole::contact || pair.has(label)) continue;
     for (const int v : edge.vertices)
       if (faces[0].normal.contains(v) || faces[1].normal.contains(v))
-        refuse(names_of(pair), "meet " + label,
+        refuse("contacts: " + names_of(pair), "meet " + label,
                "at the vertex " + shown(mesh.vertices[v]) +
                    " (allowed: pairs that share no vertex with other contact groups)");
   }
@@ -174,7 +162,7 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
     result.edges.resize(changed.boundary.size());
     const int count = PairedEdges(changed, pair, scene, matching).put_into(result.edges, size_mm);
     if (count == 0)
-      throw TransformError(names_of(pair) +
+      throw TransformError("contacts: " + names_of(pair) +
                            " do not face each other (allowed: groups whose outward normals point "
                            "at each other)");
     result.changes.inserted += matching.changes.inserted;

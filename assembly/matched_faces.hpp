@@ -26,10 +26,9 @@ namespace airybench {
 struct MatchedEdge {
   int opposite = 0;        // row of Mesh::boundary, walked the other way
   ContactNormals normals;  // outward; at the same place the opposite edge has the opposite ones
-  // At start, middle and end, without clearance. Zero on the second edge of a pair, and so is the
-  // clearance: the first has those of both.
+  // At start, middle and end, without clearance. Zero on the second edge of a pair: the first has
+  // that of both.
   std::array<double, 3> gap_mm{};
-  double clearance_mm = 0, friction = 0;
 };
 
 struct MatchedFaces {

@@ -142,6 +142,11 @@ struct Problem {
   int opposite_of(int boundary_row) const {
     return opposite.empty() ? no_row : opposite[static_cast<std::size_t>(boundary_row)];
   }
+  // Both edges of a pair are listed; true of the later one.
+  bool is_second_of_pair(int boundary_row) const {
+    const int other = opposite_of(boundary_row);
+    return other != no_row && other < boundary_row;
+  }
   bool has_gap() const {
     return loads.gap_mm || loads.slid_mm.size() > 0 || !motion.is_zero() ||
            free.amounts_mm.size() > 0;

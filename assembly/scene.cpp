@@ -8,6 +8,7 @@
 
 #include "assembly/contact_conditions.hpp"
 #include "assembly/edge_forces.hpp"
+#include "support/lists.hpp"
 
 namespace airybench {
 namespace {
@@ -163,12 +164,10 @@ void check_rollers_at_pairs(const Scene& scene, const Problem& problem) {
 
 std::vector<Eigen::Matrix3d> compliances(const Scene& scene, const Mesh& mesh) {
   for (const auto& [body, material] : scene.materials)
-    if (std::find(mesh.body_names.begin(), mesh.body_names.end(), body) == mesh.body_names.end()) {
-      std::string valid;
-      for (const std::string& name : mesh.body_names) valid += (valid.empty() ? "" : ", ") + name;
-      fail(scene, "materials", body,
-           "is no body of the mesh " + mesh.name + " (its bodies: " + valid + ")");
-    }
+    if (std::ranges::count(mesh.body_names, body) == 0)
+      fail(
+          scene, "materials", body,
+          "is no body of the mesh " + mesh.name + " (its bodies: " + joined(mesh.body_names) + ")");
   std::vector<Eigen::Matrix3d> result;
   for (std::size_t k = 0; k < mesh.body_names.size(); ++k) {
     const auto own = scene.materials.find(mesh.body_names[k]);
@@ -202,12 +201,16 @@ void check_loads(const Scene& scene, const std::string& prefix, const BoundaryCo
          "(allowed: finite numbers)");
 }
 
+void check_clearance(const Scene& scene, const std::string& prefix, const ContactPair& pair) {
+  if (pair.clearance_mm && !std::isfinite(*pair.clearance_mm))
+    fail(scene, prefix + "contacts: clearance_mm", *pair.clearance_mm, "(allowed: finite numbers)");
+}
+
 void check_contacts(const Scene& scene) {
   for (const ContactPair& pair : scene.contacts) {
     if (pair.friction && (!(*pair.friction >= 0) || !std::isfinite(*pair.friction)))
       fail(scene, "contacts: friction", *pair.friction, "(allowed: >= 0)");
-    if (!std::isfinite(pair.clearance_mm))
-      fail(scene, "contacts: clearance_mm", pair.clearance_mm, "(allowed: finite numbers)");
+    check_clearance(scene, "", pair);
   }
   for (const auto& [label, values] : scene.boundary)
     if (is_paired(scene, label))
@@ -233,6 +236,23 @@ void check_faces(const Scene& scene) {
 
 std::string step_prefix(std::size_t k) { return "load_steps: " + std::to_string(k + 1) + ": "; }
 
+template <typename AnyScene>
+auto pair_of(AnyScene& scene, const ContactPair& of_step) {
+  return std::ranges::find(scene.contacts, of_step.between, &ContactPair::between);
+}
+
+void check_contacts_of_step(const Scene& scene, std::size_t k) {
+  for (const ContactPair& pair : scene.later_steps[k].contacts) {
+    if (pair_of(scene, pair) == scene.contacts.end())
+      fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
+           "(allowed: as in contacts of the scene)");
+    if (pair.friction || !pair.clearance_mm)
+      fail(scene, step_prefix(k) + "contacts", names_of(pair),
+           "(allowed: clearance_mm, and no friction)");
+    check_clearance(scene, step_prefix(k), pair);
+  }
+}
+
 void check_steps(const Scene& scene) {
   if (scene.equal_steps < 1 || scene.equal_steps > most_load_steps)
     fail(scene, "load_steps", scene.equal_steps,
@@ -252,6 +272,7 @@ void check_steps(const Scene& scene) {
         if (is_given)
           fail(scene, step_prefix(k) + "boundary: " + label, key,
                "(allowed: traction_MPa, pressure_MPa, displacement_mm, clearance_mm)");
+    check_contacts_of_step(scene, k);
   }
 }
 
@@ -268,10 +289,13 @@ void change(Scene& scene, const LoadStep& step) {
     if (values.displacement_mm) own.displacement_mm = values.displacement_mm;
     if (values.contact.clearance_mm) own.contact.clearance_mm = values.contact.clearance_mm;
   }
+  for (const ContactPair& pair : step.contacts)
+    pair_of(scene, pair)->clearance_mm = pair.clearance_mm;
 }
 
 bool changes_gap(const LoadStep& step) {
-  return step.clearance_mm || std::ranges::any_of(step.boundary, [](const auto& group) {
+  return step.clearance_mm || !step.contacts.empty() ||
+         std::ranges::any_of(step.boundary, [](const auto& group) {
            return group.second.contact.clearance_mm.has_value();
          });
 }
@@ -322,6 +346,10 @@ std::vector<Loads> loads_of_steps(const Scene& scene, const ReachableContact& co
 }
 
 }  // namespace
+
+std::string names_of(const ContactPair& pair) {
+  return joined(pair.between[0]) + " and " + joined(pair.between[1]);
+}
 
 bool is_paired(const Scene& scene, const std::string& label) {
   return std::ranges::any_of(scene.contacts,

@@ -17,22 +17,28 @@
 
 namespace airybench {
 
+// Two faces of different bodies that press on each other (matched_faces.hpp).
+struct ContactPair {
+  std::array<std::vector<std::string>, 2> between;  // labels of each face's groups
+  std::optional<double> friction = {};              // none: the scene's
+  std::optional<double> clearance_mm = {};          // added to the gap, none: 0; < 0: interference
+
+  bool has_first(const std::string& label) const {
+    return std::ranges::count(between[0], label) > 0;
+  }
+  bool has(const std::string& label) const {
+    return has_first(label) || std::ranges::count(between[1], label) > 0;
+  }
+};
+// "contact:a and contact:b", with commas in faces of several groups.
+std::string names_of(const ContactPair& pair);
+
 // Changes from the previous load step; the rest stays.
 struct LoadStep {
   std::optional<Eigen::Vector2d> displacement_mm, body_force_N_per_mm3;
   std::optional<double> clearance_mm;
-  BoundaryConditions boundary;  // of these groups; supports stay
-};
-
-// Two faces of different bodies that press on each other (matched_faces.hpp).
-struct ContactPair {
-  std::array<std::vector<std::string>, 2> between;  // labels of each face's groups
-  std::optional<double> friction;                   // none: the scene's
-  double clearance_mm = 0;                          // added to the gap; < 0: an interference
-
-  bool has(const std::string& label) const {
-    return std::ranges::count(between[0], label) + std::ranges::count(between[1], label) > 0;
-  }
+  BoundaryConditions boundary;             // of these groups; supports stay
+  std::vector<ContactPair> contacts = {};  // pairs of the scene with another clearance
 };
 
 struct Scene {

@@ -110,7 +110,7 @@ std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides
   }
 
   std::vector<bool> has_role(n, false);
-  bool has_displacement = false;
+  bool is_held = false;
   for (const BoundaryEdge& edge : mesh.boundary) {
     const auto [a, b] = edge.vertices;
     const std::string name = "boundary " + edge_text(a, b);
@@ -126,14 +126,13 @@ std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides
         edge.group >= static_cast<int>(mesh.boundary_groups.size()))
       fail(mesh, name + ": group " + std::to_string(edge.group + 1) + " does not exist (1.." +
                      std::to_string(mesh.boundary_groups.size()) + ")");
-    has_displacement |= edge.role == BoundaryRole::displacement;
+    is_held |= edge.role != BoundaryRole::force;
   }
   for (int v = 0; v < n; ++v)
     if (next[v] != -1 && !has_role[v])
       fail(mesh, edge_text(v, next[v]) +
                      ": a boundary edge without a role (displacement, force or contact)");
-  if (!has_displacement)
-    fail(mesh, "no displacement edge; at least one is needed to hold the body");
+  if (!is_held) fail(mesh, "no displacement and no contact edge; something must hold the body");
   return next;
 }
 

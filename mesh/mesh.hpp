@@ -76,9 +76,9 @@ inline constexpr double flat_triangle_tolerance = 1e-13;
 // Throws MeshError on the first of: no triangles; a vertex that is not finite, or in no triangle; a
 // triangle with a vertex out of range, of (numerically) zero area or clockwise; an edge shared by
 // more than two triangles; a boundary edge that is not on the boundary, given twice, walked against
-// its triangle, or of a group that does not exist; a boundary edge without a role; no displacement
-// edge; within a piece a boundary that touches or crosses itself or, around a hole, another one;
-// triangles that overlap. Different pieces may touch and overlap.
+// its triangle, or of a group that does not exist; a boundary edge without a role; neither
+// displacement nor contact edges; within a piece a boundary that touches or crosses itself or,
+// around a hole, another one; triangles that overlap. Different pieces may touch and overlap.
 void validate(const Mesh& mesh);
 
 // Parts that no triangle joins, numbered in the order of their lowest vertices.

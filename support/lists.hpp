@@ -1,4 +1,5 @@
-// Lists on the command line, "a,b". A backslash escapes a separator or a backslash in an item.
+// Lists: on the command line, "a,b", and in messages, "a, b". A backslash escapes a separator or a
+// backslash in an item.
 #pragma once
 
 #include <optional>
@@ -9,6 +10,17 @@
 namespace airybench {
 
 std::vector<std::string> split_list(std::string_view list, char separator = ',');
+
+// "a, b" of a range of texts.
+template <typename Texts>
+std::string joined(const Texts& texts, std::string_view separator = ", ") {
+  std::string all;
+  for (const auto& text : texts) {
+    if (!all.empty()) all += separator;
+    all += text;
+  }
+  return all;
+}
 
 // rest: the raw text after the separator; empty if there is no separator.
 struct FirstItem {

@@ -29,7 +29,7 @@ struct ChildEnd {
   int channel_error = 0;                // errno of a failed send or receive
   bool used_up_processor_time = false;  // up to its limit (ulimit -t)
   std::optional<bool> oom_killed;       // SIGKILL while the kernel's count of OOM kills rose
-  double wall_s = 0;                    // of a program
+  double wall_s = 0, processor_s = 0;   // of a program; with all that it started
   std::int64_t peak_bytes = 0;          // of a program, see run_program
 };
 std::string signal_name(int signal);  // "SIGSEGV"

@@ -108,6 +108,13 @@ void become(const Program& program, const ProgramLimits& limits, const sigset_t&
   if (is_ready) execvp(arguments.front(), arguments.data());
 }
 
+double processor_s_of_children() {
+  rusage used = {};
+  getrusage(RUSAGE_CHILDREN, &used);
+  const auto seconds = [](const timeval& t) { return t.tv_sec + 1e-6 * t.tv_usec; };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
 class Guardian {
  public:
   Guardian(const Program& program, const ProgramLimits& limits, ChildEnd& end)
@@ -141,6 +148,7 @@ class Guardian {
       wait_for_child(counted_s);
     end_.wall_s = seconds_since(begun);
     end_descendants({}, [this](pid_t process, int status) { note(process, status); });
+    end_.processor_s = processor_s_of_children();
     if (getppid() != parent) remove_folder(program_.scratch);
   }
 

@@ -10,6 +10,7 @@
 #include "bench/report/claims.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
+#include "support/lists.hpp"
 #include "support/this_process.hpp"
 
 namespace airybench {

@@ -87,6 +87,7 @@ class ProgramSolve {
       program.command.push_back(filled_in(word, values));
     const ChildEnd end = run_program(program, {limit_s, caller.memory_limit_bytes});
     run_.wall_s = end.wall_s;
+    run_.processor_s = end.processor_s;
     run_.peak_bytes = end.peak_bytes;
     if (end.exit_code != 0)
       throw NoAnswer(

@@ -43,6 +43,7 @@ void take_step(bool is_first, const std::string& prefix, const Solution& step, S
     const ProgramRun before = path.program.value_or(ProgramRun{});
     path.program = step.program;
     path.program->wall_s += before.wall_s;
+    path.program->processor_s += before.processor_s;
     path.program->not_solve_s += before.not_solve_s;
     path.program->peak_bytes = std::max(step.program->peak_bytes, before.peak_bytes);
   }

@@ -83,9 +83,9 @@ std::optional<std::int64_t> if_probed(std::int64_t bytes) {
 }
 
 Json to_json(const TimedRun& run) {
-  return {{"time_s", run.time_s},   {"stages", run.stages},      {"status", name_of(run.status)},
-          {"message", run.message}, {"signal", run.signal},      {"ended_in", run.ended_in},
-          {"runs_s", run.runs_s},   {"program_s", run.program_s}};
+  return {{"time_s", run.time_s},   {"stages", run.stages},       {"status", name_of(run.status)},
+          {"message", run.message}, {"signal", run.signal},       {"ended_in", run.ended_in},
+          {"runs_s", run.runs_s},   {"program_s", run.program_s}, {"processor_s", run.processor_s}};
 }
 
 TimedRun timed_run_of(const Json& json) {
@@ -96,7 +96,8 @@ TimedRun timed_run_of(const Json& json) {
           json.at("signal").get<std::string>(),
           json.at("ended_in").get<std::string>(),
           json.at("runs_s").get<double>(),
-          json.at("program_s").get<double>()};
+          json.at("program_s").get<double>(),
+          json.at("processor_s").get<double>()};
 }
 
 void add_run(const TimedRun& run, Record& record) {
@@ -104,7 +105,10 @@ void add_run(const TimedRun& run, Record& record) {
   if (run.status == record.claimed_status) {
     record.samples_s.push_back(run.time_s);
     record.stage_samples.push_back(run.stages);
-    if (run.program_s > 0) record.program_samples_s.push_back(run.program_s);
+    if (run.program_s > 0) {
+      record.program_samples_s.push_back(run.program_s);
+      record.processor_samples_s.push_back(run.processor_s);
+    }
     return;
   }
   record.status = run.status;
@@ -115,6 +119,7 @@ void add_run(const TimedRun& run, Record& record) {
   record.samples_s.clear();
   record.stage_samples.clear();
   record.program_samples_s.clear();
+  record.processor_samples_s.clear();
   for (const char* name :
        {"peak_heap_bytes", "peak_rss_bytes", "memory_by_owner", "memory_by_stage",
         "memory_counts_differ", "memory_count_ratio", "heap_allocations", "heap_allocated_bytes"})

@@ -32,9 +32,9 @@ struct TimedRun {
   std::map<std::string, double> stages;  // stage → seconds
   Status status = Status::crashed;
   std::string message = "the run did not take place";
-  std::string signal, ended_in;  // see record_fields.def
-  double runs_s = 0;             // of all runs of the case so far
-  double program_s = 0;          // of an external program, from start to end
+  std::string signal, ended_in;           // see record_fields.def
+  double runs_s = 0;                      // of all runs of the case so far
+  double program_s = 0, processor_s = 0;  // of an external program, from start to end
 };
 Json to_json(const TimedRun& run);
 TimedRun timed_run_of(const Json& json);

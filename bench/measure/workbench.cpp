@@ -317,7 +317,10 @@ TimedRun Workbench::timed(const Run& run) {
   for (const Stage stage : all_stages)
     if (const auto& seconds = run.solution.times[stage])
       result.stages[std::string(name_of(stage))] = *seconds;
-  if (run.solution.program) result.program_s = run.solution.program->wall_s;
+  if (const auto& program = run.solution.program) {
+    result.program_s = program->wall_s;
+    result.processor_s = program->processor_s;
+  }
   return result;
 }
 

@@ -145,6 +145,10 @@ static void read(const JsonValue& value, ContactPair& pair) {
   if (pair.between[0].empty()) value.fail(std::string("between: ") + allowed);
 }
 
+static JsonKey pairs(const char* name, std::vector<ContactPair>& contacts) {
+  return list(name, contacts, ContactPair(), "a list of pairs {\"between\": [..., ...]}");
+}
+
 static void read_layers(const JsonValue& value, Scene& scene) {
   Layers& layers = scene.layers;
   value.object({key("normal", layers.normal), whole("count", layers.count, 1, most_layers),
@@ -157,7 +161,8 @@ static void read_layers(const JsonValue& value, Scene& scene) {
 static void read(const JsonValue& value, LoadStep& step) {
   value.object({key("displacement_mm", step.displacement_mm),
                 key("body_force_N_per_mm3", step.body_force_N_per_mm3),
-                key("clearance_mm", step.clearance_mm), key("boundary", step.boundary)});
+                key("clearance_mm", step.clearance_mm), key("boundary", step.boundary),
+                pairs("contacts", step.contacts)});
 }
 
 static void read_load_steps(const JsonValue& value, Scene& scene) {
@@ -228,7 +233,7 @@ void read(const JsonValue& value, SceneFile& file) {
                  });
         }},
        key("boundary", scene.boundary),
-       list("contacts", scene.contacts, ContactPair(), "a list of pairs {\"between\": [..., ...]}"),
+       pairs("contacts", scene.contacts),
        {"roles", [&](const JsonValue& v) { read_roles(v, file); }},
        {"length_unit", [&](const JsonValue& v) { read_length_unit(v, file); }},
        key("mesh", scene.mesh),

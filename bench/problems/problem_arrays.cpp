@@ -85,8 +85,7 @@ std::vector<KnownRow> known_rows(const Problem& problem, Known known) {
   std::vector<KnownRow> rows;
   const auto add_edge = [&](int row) {
     const EdgeCondition condition = problem.condition(row);
-    const int other = problem.opposite_of(row);
-    if (known == Known::contact_law && other != Problem::no_row && other < row) return;
+    if (known == Known::contact_law && problem.is_second_of_pair(row)) return;
     for (const int end : {0, 1}) {
       const EdgeFrame frame = problem.frame_of_moment(row, 1, end);
       const std::array<Eigen::Vector2d, 2> axes =

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "support/lists.hpp"
 #include "support/numbers.hpp"
 
 namespace airybench {

@@ -131,6 +131,4 @@ class Evidence {
 
 std::vector<Claim> check_claims(const CaseTable& cases);
 
-std::string joined(const std::vector<std::string>& texts, const char* separator = ", ");
-
 }  // namespace airybench

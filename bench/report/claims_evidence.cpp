@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "support/lists.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
@@ -259,10 +260,6 @@ Claim Evidence::claim(const std::string& sentence) const {
     claim.open.push_back(why + ": " + joined(which));
   }
   return claim;
-}
-
-std::string joined(const std::vector<std::string>& texts, const char* separator) {
-  return fmt::format("{}", fmt::join(texts, separator));
 }
 
 }  // namespace airybench

@@ -47,7 +47,7 @@ std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
 }
 
-constexpr std::array<TableColumn, 26> table_columns = {{
+constexpr std::array<TableColumn, 27> table_columns = {{
     {"case", CellKind::words, Shown::always, nullptr,
      [](const Record& r) { return named(name_of(r).text()); }},
     {"mesh", CellKind::words, Shown::if_chosen, nullptr,
@@ -74,6 +74,8 @@ constexpr std::array<TableColumn, 26> table_columns = {{
      [](const Record& r) { return whole(r.peak_heap_bytes); }},
     {"program", CellKind::seconds, Shown::with_field, "program_s",
      [](const Record& r) { return amount(r.program_s); }},
+    {"its processor", CellKind::seconds, Shown::with_field, "processor_s",
+     [](const Record& r) { return amount(r.processor_s); }},
     {"its memory", CellKind::bytes, Shown::with_field, "program_s",
      [](const Record& r) { return r.program.empty() ? named("-") : whole(r.peak_rss_bytes); }},
     {"error stress", CellKind::error, Shown::with_field, "n_phi",

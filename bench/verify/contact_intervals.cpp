@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "assembly/bernstein.hpp"
@@ -18,26 +19,40 @@ EdgeFrame frame_of(const Mesh& mesh, int row) {
   return edge_frame(mesh.vertices[a], mesh.vertices[b]);
 }
 
-// True if Γ_C has one normal and no vertex on Γ_D.
-bool can_be_moved_as_one(const Mesh& mesh) {
-  std::optional<Eigen::Vector2d> normal;
-  std::vector<bool> is_held(mesh.vertices.size(), false);
+// Per row: the contact edges that v moves, walls and of each pair the edge whose normal is that of
+// the walls, or of the first edge. Empty if they have several normals, or a vertex on Γ_D.
+std::vector<bool> moved_edges(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  std::vector<bool> is_held(mesh.vertices.size(), false), is_moved(mesh.boundary.size(), false);
   for (const BoundaryEdge& edge : mesh.boundary)
     if (edge.role == BoundaryRole::displacement)
       for (const int v : edge.vertices) is_held[v] = true;
-  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
-    if (mesh.boundary[row].role != BoundaryRole::contact) continue;
-    const Eigen::Vector2d own = frame_of(mesh, row).normal;
-    if (!normal) normal = own;
-    if ((own - *normal).norm() > straight_roller) return false;
+  std::vector<int> rows;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
+    if (mesh.boundary[row].role == BoundaryRole::contact) rows.push_back(row);
+  std::ranges::stable_partition(
+      rows, [&](int row) { return problem.opposite_of(row) == Problem::no_row; });
+  for (const int row : rows) {
+    const Eigen::Vector2d normal = frame_of(mesh, rows.front()).normal,
+                          own = frame_of(mesh, row).normal;
+    const auto differs = [&](const Eigen::Vector2d& n) {
+      return (n - own).norm() > straight_roller;
+    };
+    for (const int i : {0, 1, 2})
+      if (differs(problem.frame_at(row, i, 2).normal)) return {};
+    if (problem.opposite_of(row) != Problem::no_row && !differs(-normal)) continue;
+    if (differs(normal)) return {};
     for (const int v : mesh.boundary[row].vertices)
-      if (is_held[v]) return false;
+      if (is_held[v]) return {};
+    is_moved[row] = true;
   }
-  return normal.has_value();
+  return is_moved;
 }
 
-// v = 0 on Γ_D, v = n or t on Γ_C (without friction only n·v = 1). Empty if HYBRID fails.
-std::optional<DisplacementField> lifted(const Problem& problem, int degree, bool tangential) {
+// v = 0 on Γ_D, [v] = n or t on Γ_C (without friction only n·[v] = 1, unless that leaves a body
+// free). Empty if HYBRID fails.
+std::optional<DisplacementField> lifted(const Problem& problem, const std::vector<bool>& is_moved,
+                                        int degree, bool tangential) {
   Mesh mesh = problem.mesh;
   Loads loads;
   loads.rollers.assign(mesh.boundary.size(), false);
@@ -45,8 +60,8 @@ std::optional<DisplacementField> lifted(const Problem& problem, int degree, bool
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role == BoundaryRole::contact) {
       const EdgeFrame frame = frame_of(mesh, row);
-      on_edge[row] = tangential ? frame.tangent : frame.normal;
-      loads.rollers[row] = !problem.has_friction();
+      if (is_moved[row]) on_edge[row] = tangential ? frame.tangent : frame.normal;
+      loads.rollers[row] = !problem.has_friction() && problem.free.motions.empty();
       mesh.boundary[row].role = BoundaryRole::displacement;
     } else {
       loads.rollers[row] = problem.is_roller(row);
@@ -279,10 +294,11 @@ std::vector<ContactEnd> contact_ends(const DualSystem& system, const Eigen::Vect
 }  // namespace
 
 ResultantLifts resultant_lifts(const Problem& problem, int degree) {
-  if (!problem.contact_normals.empty() || !can_be_moved_as_one(problem.mesh)) return {};
+  const std::vector<bool> is_moved = moved_edges(problem);
+  if (std::ranges::none_of(is_moved, std::identity())) return {};
   ResultantLifts lifts;
-  lifts.normal = lifted(problem, degree, false);
-  if (problem.has_friction()) lifts.tangential = lifted(problem, degree, true);
+  lifts.normal = lifted(problem, is_moved, degree, false);
+  if (problem.has_friction()) lifts.tangential = lifted(problem, is_moved, degree, true);
   return lifts;
 }
 

@@ -1,9 +1,10 @@
 // Quantities of interest of a contact problem, each with an interval: resultants of the contact
 // forces, the largest pressure, and the points where the contact state changes.
 //
-// *Resultants.* Let v be a displacement with v = 0 on Γ_D and v = n on Γ_C (or t, with friction).
-// By virtual work the exact Σ F_n is ∫ σ:ε(v) − ∫ b·v − ∫_{Γ_F} f·v. With the mean m of both
-// stresses (discretisation_error.hpp) instead of σ its error is at most
+// *Resultants.* Let v be a displacement with v = 0 on Γ_D and v = n on Γ_C (or t, with friction);
+// where two bodies press on each other one moves and the other does not. By virtual work the exact
+// Σ F_n is ∫ σ:ε(v) − ∫ b·v − ∫_{Γ_F} f·v. With the mean m of both stresses
+// (discretisation_error.hpp) instead of σ its error is at most
 //
 //   ‖m − σ_exact‖ ‖Aε(v)‖
 //

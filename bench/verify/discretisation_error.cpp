@@ -190,7 +190,7 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   const Eigen::VectorXd compliance = rough_compliance(problem, system.contact);
   for (int point = 0; point < system.contact.count; point += k + 1) {
     const int row = system.contact.boundary[point], other = problem.opposite_of(row);
-    if (other != Problem::no_row && other < row) continue;  // both sides are one term
+    if (problem.is_second_of_pair(row)) continue;  // both sides are one term
     const ContactTerms terms = contact_terms<k>(system, point, F_C, u);
     const double beyond_wall =
         compliance(system.contact.components * point) * terms.beyond_wall_N * terms.beyond_wall_N;

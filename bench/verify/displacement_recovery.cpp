@@ -150,7 +150,7 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
   std::map<int, ContactNode> contact;
   for (int point = 0; point < system.contact.count; point += k + 1) {
     const int row = system.contact.boundary[point], other = problem.opposite_of(row);
-    if (other != Problem::no_row && other < row) continue;
+    if (problem.is_second_of_pair(row)) continue;
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
     std::array<Eigen::Vector2d, k + 1> force;
     for (int j = 0; j <= k; ++j) {

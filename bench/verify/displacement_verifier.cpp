@@ -7,6 +7,7 @@
 #include "bench/verify/contact_violations.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/paired_points.hpp"
 
 namespace airybench {
 namespace {
@@ -150,7 +151,8 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
   // The program has another discrete law: only the violations in N apply.
   result.natural_map_residual.reset();
   const Eigen::VectorXd r = relative_to_gap(law, displacement);
-  note_contact_states(law, project_on_coulomb(law, trial_forces(law, compliance, F, r)), result);
+  const Eigen::VectorXd trial = project_on_coulomb(law, trial_forces(law, compliance, F, r));
+  note_contact_states(joined(law), of_first(law, trial), result);
   if (!is_weak) return result;
   *result.normal_resultant_N += weak_N(0);
   *result.tangential_resultant_N += weak_N(1);

@@ -238,15 +238,16 @@ TEST(Degrees, HaveLoadStepsWithFriction) {
       worst = worst.cwiseMax((path[step] - fine[step]).cwiseAbs());
     return worst;
   };
-  // On the fine mesh all agree; on a coarse one every degree is nearer than the one below.
-  Eigen::Vector4d before = Eigen::Vector4d::Constant(1e3);
+  // On the fine mesh all agree; on a coarse one they are the nearer the higher the degree, until
+  // the edges' length limits what of slip and stick they can tell apart.
+  Eigen::Vector4d allowed = Eigen::Vector4d::Constant(1e3);
   for (int k = 1; k <= highest; ++k) {
     const Eigen::Vector4d on_fine = off(graded_tooth(), k), on_coarse = off(small_tooth(4, 3), k);
     EXPECT_LT(on_fine.head(2).norm(), k == 1 ? 0.4 : 0.06) << k;
     EXPECT_LT(on_fine(2), k == 1 ? 8e-3 : 2e-4) << k;
     EXPECT_LT(on_fine(3), k == 1 ? 1e-3 : 1e-4) << k;
-    EXPECT_TRUE((on_coarse.array() < 0.9 * before.array()).all()) << k << ": " << on_coarse;
-    before = on_coarse;
+    EXPECT_TRUE((on_coarse.array() < allowed.array()).all()) << k << ": " << on_coarse;
+    allowed = 0.9 * (k == 1 ? on_coarse : allowed);
   }
 }
 

@@ -277,6 +277,31 @@ TEST(FreeBodies, AWallHoldsWhatRollersLeaveFree) {
   }
 }
 
+// No displacement is prescribed anywhere: a wall and friction carry pressure and shear.
+TEST(FreeBodies, OneMayLieOnAWallAlone) {
+  Mesh block;
+  block.name = "block";
+  add_block(block, "block", {0, 0}, {12, 5}, 10, 4, {"contact", "force", "force:top", "force"});
+  validate(block);
+  Scene scene;
+  scene.wall = FlatWall{{0, 0}, {0, 1}};
+  scene.friction = 0.3;
+  const Vector2d load(10, -pressure);
+  scene.boundary["force:top"].traction_MPa = everywhere(load);
+  const Solved hybrid(scene, block, "HYBRID");
+  const Reference reference = compute_reference(hybrid.system);
+  for (const char* name : {"HYBRID", "HYBRID:MUMPS", "3STEPD", "3STEPCG3", "SSKY", "BLIND:SCHUR"}) {
+    const Solved own(scene, block, name);
+    EXPECT_LT((resultant(own, "contact") + 12 * load).norm(), 1e-6 * 12 * pressure) << name;
+    EXPECT_LT(worst_measure(verify(own.system, own.solution, &reference)).value, 1e-6) << name;
+  }
+  EXPECT_EQ(hybrid.recovered_error().flaw, "");
+  for (const char* name : {"P2", "P3"}) {
+    const Solved own(scene, block, name);
+    EXPECT_LT(worst_measure(verify_displacement(own.system, own.solution)).value, 1e-8) << name;
+  }
+}
+
 std::string why_not(const Scene& scene, const Mesh& mesh, const char* name) {
   const Method method = select_methods(name).front();
   DualSystem system = assemble(testing::posed(scene, mesh), method.blocks, method.degree);

@@ -36,6 +36,7 @@ TEST_F(ExternalCommand, AnHonestAnswerIsOkWithItsOwnNumbers) {
     EXPECT_EQ(r["family"], "EXTERNAL:" + name);
     EXPECT_EQ(r["program"], name + " 1.0");
     EXPECT_GT(r["program_s"], r["time_s"].get<double>() / 1e6);
+    EXPECT_GT(r["processor_s"], 0);
     EXPECT_GT(r["peak_rss_bytes"], 0);
     EXPECT_TRUE(r["peak_heap_bytes"].is_null());
     EXPECT_TRUE(r["stage_contact_s"].is_number());

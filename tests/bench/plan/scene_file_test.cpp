@@ -147,7 +147,7 @@ TEST_F(SceneFile, ComplaintsOfLoadSteps) {
   EXPECT_EQ(complaint(R"({"load_steps": [3]})"), "load_steps: 1: 3 (allowed: a JSON object)");
   EXPECT_EQ(complaint(R"({"load_steps": [{}, {"friction": 1}]})"),
             "load_steps: 2: friction: unknown key (allowed: displacement_mm, "
-            "body_force_N_per_mm3, clearance_mm, boundary)");
+            "body_force_N_per_mm3, clearance_mm, boundary, contacts)");
   EXPECT_EQ(complaint(R"({"load_steps": [{}, {"clearance_mm": -1}]})"),
             "load_steps: 2: clearance_mm: -1 (allowed: >= 0)");
   EXPECT_EQ(complaint(R"({"load_steps": [{"displacement_mm": 3}]})"),
