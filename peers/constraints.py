@@ -3,6 +3,8 @@
 A row is {degree of freedom: value}; node k has 2k (along x) and 2k + 1 (along y).
 """
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 ROLE = {"displacement": 0, "force": 1, "contact": 2}
 
@@ -81,28 +83,55 @@ def opposite_of(problem, side):
     return problem["contact_opposite"][side].item() if "contact_opposite" in problem else -1
 
 
+def vertices_apart(problem):
+    """Vertices of a mesh in which no two bodies touch, for programs that join vertices of one place.
+
+    Moving a body changes neither its stiffness nor the rows here, which are those of where it is.
+    """
+    x, (a, b, c) = problem["vertices_mm"], problem["triangles"].T
+    joins = coo_array((np.ones(2 * len(a)), (np.hstack([a, b]), np.hstack([b, c]))), shape=(len(x), len(x)))
+    _, body = connected_components(joins, directed=False)
+    return x + np.outer(2 * np.ptp(x[:, 0]) * body, [1, 0])
+
+
 def contact(problem, sides, held, of_coefficients):
     """Rows (normal, tangential), gaps, friction of every node or Bernstein coefficient of contact edges.
 
-    A vertex between two edges has their mean normal, the smaller gap and the smaller friction.
+    A vertex between two edges has their mean normal, the smaller gap and the smaller friction. Of two bodies
+    the rows are those of the difference of their displacements, the gaps those of both. A roller takes friction.
     """
     weights = np.eye(3)
     if of_coefficients:
         weights[1] = -1 / 2, 2, -1 / 2
-    points = {}
+    points, free, across = {}, set(), {}
     for side in sides_of(problem, "contact"):
         normals = problem["contact_normals"][side].reshape(3, 2)
         gaps = weights @ problem["gap_mm"][side]
+        other = opposite_of(problem, side)
         for k, node in enumerate(sides[side]):
+            point = points.setdefault(node, [sides[side], weights[k], 0, np.inf, np.inf])
+            point[2] = point[2] + normals[k]
+            point[3] = min(point[3], gaps[k])
+            point[4] = min(point[4], problem["friction"][side])
             if is_free(normals[k], held.get(node, [[]])[0]):
-                point = points.setdefault(node, [sides[side], weights[k], 0, np.inf, np.inf])
-                point[2] = point[2] + normals[k]
-                point[3] = min(point[3], gaps[k])
-                point[4] = min(point[4], problem["friction"][side])
-    law = [], [], [], []
-    for nodes, own, n, gap, friction in points.values():
+                free.add(node)
+            if other >= 0:
+                across[node] = sides[other][2 - k]
+    law, done = ([], [], [], []), set()
+    for node, (nodes, own, n, gap, friction) in points.items():
+        if node not in free or node in done:
+            continue
         n = n / np.hypot(*n)
-        for column, value in zip(law, (row_along(n, nodes, own), row_along((-n[1], n[0]), nodes, own),
-                                       gap, friction)):
+        rows = [row_along(axis, nodes, own) for axis in (n, (-n[1], n[0]))]
+        pair = {node}
+        if node in across:
+            nodes, own, _, gap_beyond, _ = points[across[node]]
+            rows = [row | row_along(axis, nodes, -own) for row, axis in zip(rows, (n, (-n[1], n[0])))]
+            gap += gap_beyond
+            pair.add(across[node])
+        if any(of_pair in held for of_pair in pair & free):
+            friction = 0
+        done |= pair
+        for column, value in zip(law, (*rows, gap, friction)):
             column.append(value)
     return law

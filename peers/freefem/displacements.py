@@ -14,12 +14,12 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from answer import write_answer  # noqa: E402
 from constraints import (boundary_nodes, contact, held_nodes, loads, row_along, sides_of,  # noqa: E402
-                         triangle_nodes)
+                         triangle_nodes, vertices_apart)
 
 
 def mesh_lines(problem):
     counts = [len(problem[name]) for name in ("vertices_mm", "triangles", "boundary")]
-    return [counts, *((*x, 0) for x in problem["vertices_mm"].tolist()),
+    return [counts, *((*x, 0) for x in vertices_apart(problem).tolist()),
             *((*abc, 0) for abc in (problem["triangles"] + 1).tolist()),
             *((*ends, 1) for ends in (problem["boundary"] + 1).tolist())]
 

@@ -15,12 +15,12 @@ from scipy.spatial import cKDTree
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from answer import write_answer  # noqa: E402
-from constraints import boundary_nodes, contact, held_nodes, loads, row_along  # noqa: E402
+from constraints import boundary_nodes, contact, held_nodes, loads, row_along, vertices_apart  # noqa: E402
 
 
 def finite_elements(problem):
     """Mesh, elements of u, their nodes: of vertices, then edges; of boundary edges (start, middle, end)."""
-    vertices, edges = problem["vertices_mm"], problem["edges"]
+    vertices, edges = vertices_apart(problem), problem["edges"]
     mesh = gf.Mesh("empty", 2)
     mesh.add_convex(gf.GeoTrans("GT_PK(2,1)"), vertices[problem["triangles"]].T)
     elements = gf.MeshFem(mesh, 2)
