@@ -64,7 +64,8 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
     meshes = by_mesh(rows)
     names = sorted({f"{own[0].family.removeprefix('EXTERNAL:')}: {name_of(own[0])}"
                     for of_mesh in meshes.values() for own in sweeps_of(of_mesh).values()})
-    lines = math.ceil(len(meshes) / IN_ROW)
+    in_row = min(IN_ROW, len(meshes))
+    lines = math.ceil(len(meshes) / in_row)
     figure = sheet(
         TOP + lines * (HEIGHT + BETWEEN) - BETWEEN + 0.45, "What a program's own parameter costs",
         f"Total error over the time of one solve by the program's own clock; scene {rows[0].scene}, "
@@ -72,13 +73,13 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
         f"({'; '.join(names)}). Open: not ok, such as through the wall by more than it is allowed.",
         left_out(run, rows, why))
     times, errors = (log_limits(values, 1.7) for values in ([row.time_s for row in rows], map(error_of, rows)))
-    width = (PAGE_WIDTH - LEFT - 0.15 - GAP) / IN_ROW
+    width = (PAGE_WIDTH - LEFT - 0.15 - GAP * (in_row - 1)) / in_row
     for k, (mesh, own) in enumerate(meshes.items()):
-        axes = panel_at(figure, LEFT + k % IN_ROW * (width + GAP), TOP + k // IN_ROW * (HEIGHT + BETWEEN),
+        axes = panel_at(figure, LEFT + k % in_row * (width + GAP), TOP + k // in_row * (HEIGHT + BETWEEN),
                         width, HEIGHT)
         log_log(axes, xlim=times, ylim=errors, xlabel="time, s", title=plain(mesh),
-                ylabel="" if k % IN_ROW else "total error of the stresses")
-        axes.tick_params(labelleft=k % IN_ROW == 0)
+                ylabel="" if k % in_row else "total error of the stresses")
+        axes.tick_params(labelleft=k % in_row == 0)
         draw_panel(axes, own)
     return figure
 
