@@ -7,6 +7,7 @@ import shutil
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from fnmatch import fnmatchcase
 from functools import partial
 from pathlib import Path
 
@@ -41,6 +42,17 @@ def results_and_out(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="the --out of bench")
     parser.add_argument("--out", type=Path, metavar="DIR", help="default: RESULTS_DIR/figures")
     parser.add_argument("--vector", action="store_true", help="each figure also as .svg and .pdf")
+
+
+def selected(only: str | None, kind: str, names: list[str]) -> list[str]:
+    """The names that one of the globs in `only` fits; all without globs."""
+    if only is None:
+        return names
+    globs = only.split(",")
+    for glob in globs:
+        if not any(fnmatchcase(name, glob) for name in names):
+            raise RecordsError(f"--only: '{glob}' is no {kind} (there are: {', '.join(names) or 'none'})")
+    return [name for name in names if any(fnmatchcase(name, glob) for glob in globs)]
 
 
 def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:

@@ -20,7 +20,6 @@ or a folder that cannot be written; one line says which, and the files that were
 """
 import argparse
 from collections.abc import Callable
-from fnmatch import fnmatchcase
 from importlib import import_module
 from pathlib import Path
 
@@ -29,7 +28,7 @@ import matplotlib
 import command
 from documents import documents_of
 from drawing import STYLE, Drawing, for_papers
-from records import RecordsError, Row, read_run, rows_of
+from records import Row, read_run, rows_of
 from selection import grouped
 from words import cases_by_reason
 
@@ -57,22 +56,11 @@ def listed(rows: list[Row], drawn: list[Row]) -> str:
                             for why, own in reasons.items()})
 
 
-def selected(only: str | None, names: list[str]) -> list[str]:
-    if only is None:
-        return names
-    globs = only.split(",")
-    for glob in globs:
-        if not any(fnmatchcase(name, glob) for name in names):
-            raise RecordsError(f"--only: '{glob}' is no figure of these records "
-                               f"(there are: {', '.join(names)})")
-    return [name for name in names if any(fnmatchcase(name, glob) for glob in globs)]
-
-
 def draw_all(rows: list[Row], out: Path, only: str | None = None, vector: bool = False) -> None:
     report, drawn, made = [], [], command.Made(out, "figures")
     writers: dict[str, Callable[[Path], object]] = {}
     drawings, documents = drawings_of(rows), documents_of(rows)
-    names = selected(only, [*(drawing.name for drawing in drawings), *list(documents)[:-1]])
+    names = command.selected(only, "figure of these records", [*(drawing.name for drawing in drawings), *list(documents)[:-1]])
     for drawing in drawings:
         if drawing.name not in names:
             continue

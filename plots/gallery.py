@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Draws the stress field, the contact points and the error of solutions from `bench --fields`.
 
-    gallery.py RESULTS_DIR [--out DIR] [--each] [--animate] [--vector]
+    gallery.py RESULTS_DIR [--out DIR] [--each] [--only GLOB,...] [--animate] [--vector]
 
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
 with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
@@ -9,9 +9,9 @@ element map of its discretisation error (NAME.error.csv); adapted_meshes.png whe
 an adaptive loop have one, adapted_degrees.png where the last levels of two degrees have one;
 load_path_NAME.png for every path of load steps (NAME.steps.csv), with
 --animate also load_path_NAME.gif, a frame per step with the body in files, at most 60 frames and
-1 MB. --vector: each but the GIF also as .svg and .pdf, fonts included. NAME.csv next to each picture
-has its numbers. Exit 2: wrong input, or a folder that cannot be written; one line says which, and
-its files stay as they were.
+1 MB. --only: these pictures, by name or glob; none is removed then. --vector: each but the GIF also
+as .svg and .pdf, fonts included. NAME.csv next to each picture has its numbers. Exit 2: wrong input,
+or a folder that cannot be written; one line says which, and its files stay as they were.
 """
 import argparse
 import math
@@ -268,6 +268,7 @@ def choose(names: list[str]) -> list[str] | None:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     command.results_and_out(parser)
     parser.add_argument("--each", action="store_true", help="also a picture per solution")
+    parser.add_argument("--only", metavar="GLOB,...", help="these pictures")
     parser.add_argument("--animate", action="store_true", help="also a .gif per path of load steps")
 
 
@@ -280,37 +281,47 @@ def draw(args: argparse.Namespace) -> None:
         print(f"left out, fields of no recorded case: {', '.join(others)}")
         names = [name for name in names if name in records]
     chosen = choose(names)
-    wanted = names if args.each or not chosen else chosen
-    solutions = {name: read_fields(args.results, name, records) for name in wanted}
-    mapped = {name: solutions.get(name) or read_fields(args.results, name, records)
-              for name in names_in(args.results, "error") if name in names}
-    maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
+    singles = names if args.each or not chosen else []
+    with_map = [name for name in names_in(args.results, "error") if name in names]
+    with_path = [name for name in names_in(args.results, "steps") if name in names]
+    degrees = degrees_in(with_map)
+    levels = {"adapted_meshes": (levels_in(with_map), ()),
+              "adapted_degrees": (list(degrees.values()), tuple(f"degree {k}" for k in degrees))}
+    pictures = command.selected(args.only, "picture of these fields", [
+        *["gallery"] * bool(chosen), *(f"fields_{name}" for name in singles),
+        *(picture for picture, (own, _) in levels.items() if own),
+        *(f"error_map_{name}" for name in with_map), *(f"load_path_{name}" for name in with_path)])
+    singles, with_map, with_path = (
+        [name for name in own if f"{kind}_{name}" in pictures]
+        for kind, own in (("fields", singles), ("error_map", with_map), ("load_path", with_path)))
+    levels = {picture: shown for picture, shown in levels.items() if picture in pictures}
+    mapped = dict.fromkeys([*with_map, *(name for own, _ in levels.values() for name in own)])
+    drawn = dict.fromkeys([*(chosen if "gallery" in pictures else ()), *singles, *mapped])
+    solutions = {name: read_fields(args.results, name, records) for name in drawn}
+    maps = {name: (solutions[name], read_error_share(args.results, solutions[name])) for name in mapped}
     out.mkdir(parents=True, exist_ok=True)
     made = command.Made(out, "gallery")
-    if chosen:
+    if "gallery" in pictures:
         *teeth, rack = (solutions[name] for name in chosen)
         save_composed(made, "gallery", [teeth, [rack]], args.vector, "png", "svg")
-    if args.each or not chosen:
-        for name, s in solutions.items():
-            save_composed(made, f"fields_{name}", [[s]], args.vector, "png")
-    degrees = degrees_in(list(maps))
-    for picture, names_of_levels, titles in (
-            ("adapted_meshes", levels_in(list(maps)), ()),
-            ("adapted_degrees", list(degrees.values()), tuple(f"degree {k}" for k in degrees))):
-        if names_of_levels and all(maps[name][1].any() for name in names_of_levels):
+    for name in singles:
+        save_composed(made, f"fields_{name}", [[solutions[name]]], args.vector, "png")
+    for picture, (names_of_levels, titles) in levels.items():
+        if all(maps[name][1].any() for name in names_of_levels):
             shown = [(*maps[name], records.get(name, {}).get("error_total")) for name in names_of_levels]
             figure = draw_levels(shown, titles)
             save(made, picture, levels_table(shown), figure if args.vector else None,
                  png=partial(write_small_png, figure, LEVELS_DPI, **SMALL_PNG))
-    for name, (s, share) in maps.items():
+    for name in with_map:
+        s, share = maps[name]
         if not share.any():
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
         figure = draw_map(s, share)
         save(made, f"error_map_{name}", map_table(s, share), figure if args.vector else None,
              png=partial(write_small_png, figure, DPI, **SMALL_PNG))
-    draw_paths(args, made, [name for name in names_in(args.results, "steps") if name in names], records)
-    if gone := made.remove_others():
+    draw_paths(args, made, with_path, records)
+    if args.only is None and (gone := made.remove_others()):
         print(f"removed, of other fields: {', '.join(gone)}")
 
 

@@ -33,9 +33,10 @@ FORMAT = "airybench-night-1"
 OF_A_CASE = ("mesh", "scene", "method", "status")  # required by the page
 GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
 QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}
-# The table's columns, in the order shown.
-COLUMNS = ("mesh", "scene", "method", "stop", "status", "n_phi", "time_s", "time_mad_s",
-           *(key for key in QUANTITIES if key != "time_s"))
+# The table's columns, in the order shown: the errors stand next to the time.
+COLUMNS = tuple(dict.fromkeys((
+    "mesh", "scene", "method", "stop", "status", "n_phi", "time_s", "time_mad_s", "peak_heap_bytes",
+    "error_stress", "error_force", "error_total", *QUANTITIES)))
 HEADS = {"n_phi": "n_phi", "time_mad_s": "±"}
 OF_SERIES = [*QUANTITIES, "time_low_s", "time_high_s"]
 GROUPED_BY = ["name", "mesh", "scene", "family", "body"]  # of a case
@@ -125,7 +126,7 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
             bodies.index(case["body"]), case["mesh"], case["scene"])),
         "quantities": [{"key": key, "name": f["label"], "group": GROUPS.get(f["unit"], "work")}
                        for key, f in QUANTITIES.items() if cases[key].notna().any()],
-        "errors": [key for key, f in QUANTITIES.items() if f["unit"] == "1"],
+        "errors": [f["name"] for f in FIELDS if f["name"] in COLUMNS and f["unit"] == "1"],
         "marks": marks(nights),
         "last": {"failed": last.failed, "times_judged": last.times_judged,
                  "verdicts": last.verdicts, "statuses": list(last.cases.status)},

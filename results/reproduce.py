@@ -1,14 +1,17 @@
 """Makes what results/ holds anew, unattended, from one revision (reproduce.toml says what).
 
-    reproduce.py [--only=PART,...] [--work=DIR] [--dry-run | --quick [--program=FILE] | --install]
+    reproduce.py [--only=PART,...] [--revision=REV] [--work=DIR]
+                 [--dry-run | --quick [--program=FILE] | --install | --check]
 
-The revision of HEAD is cloned into DIR/source, built there and measured: what is changed beside it
-meanwhile changes no record. Figures are drawn by the tree that this file is in. A second call goes
-on where the first one ended, with the same revision. --dry-run prints the forecast. --quick measures
-a thin selection with the program as it is and draws every figure from it. --install puts what is
-complete into results/ and rewrites the numbers that README.md and docs/ quote.
+The revision REV (default: HEAD) is cloned into DIR/source, built there and measured: changes to other
+trees meanwhile change no record. Figures are drawn by the tree that this file is in, which also lists the
+parts. A second call continues where the first one ended, with the same revision; another machine
+continues with --revision. --dry-run prints the forecast. --quick measures a thin selection with the program
+as it is and draws every figure from it. --install puts what is complete into results/ and rewrites the
+numbers that README.md and docs/ quote. --check prints which revision the records in results/ come from.
 
-Exit status: 0 complete; 1 some part is not; 2 wrong usage, or what is there cannot be gone on with.
+Exit status: 0 complete; 1 some part is not, or --check found several revisions; 2 wrong usage, or what is
+there cannot be continued.
 """
 from __future__ import annotations
 
@@ -25,7 +28,7 @@ import time
 import tomllib
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -45,6 +48,8 @@ class Part:
     shows: str
     runs: list[str]
     figures: list[str]
+    pictures: list[str] = field(default_factory=list)
+    images: list[str] = field(default_factory=list)
     nights: int = 0
     claims: bool = False
     peers: bool = False
@@ -52,8 +57,9 @@ class Part:
 
 def parts_of(recipe: Path, quick: bool) -> list[Part]:
     runs, nights = ("quick", "quick_nights") if quick else ("runs", "nights")
-    return [Part(name, entry["shows"], entry[runs], entry.get("figures", []), entry.get(nights, 0),
-                 entry.get("claims", False), entry.get("peers", False) and not quick)
+    return [Part(name, entry["shows"], entry[runs], entry.get("figures", []), entry.get("pictures", []),
+                 entry.get("images", []), entry.get(nights, 0), entry.get("claims", False),
+                 entry.get("peers", False) and not quick)
             for name, entry in tomllib.loads(recipe.read_text(encoding="utf-8")).items()]
 
 
@@ -122,15 +128,32 @@ def build(source: Path, peers: bool) -> None:
             raise Refused(f"./run {command[0]} ended with {ran.returncode}")
 
 
-def pinned(work: Path) -> Path:
-    """A clone of HEAD, or of the revision that was begun with."""
+def commit_of(revision: str) -> str:
+    ran = call("git", "rev-parse", "--quiet", "--verify", f"{revision}^{{commit}}", cwd=PROJECT,
+               capture_output=True, text=True)
+    if ran.returncode:
+        raise Refused(f"--revision: '{revision}' is none of this repository (allowed: a commit, tag or branch)")
+    return ran.stdout.strip()
+
+
+def pinned(work: Path, revision: str | None) -> Path:
+    """A clone of the revision, by default of the one that was begun with, or of HEAD."""
     source = work / "source"
     if source.exists():
+        there = output_of("git", "rev-parse", "HEAD", cwd=source)
+        if revision and commit_of(revision) != there:
+            raise Refused(f"--revision: {source} has {there[:10]}, not {revision} (allowed: "
+                          f"--revision={there[:10]}, or another --work)")
         return source
-    if output_of("git", "status", "--porcelain", "--untracked-files=no", cwd=PROJECT):
-        raise Refused("the tree has changes that are not committed (allowed: a clean tree)")
+    if not revision and output_of("git", "status", "--porcelain", "--untracked-files=no", cwd=PROJECT):
+        raise Refused("the tree has changes that are not committed (allowed: a clean tree, or --revision)")
+    wanted = commit_of(revision or "HEAD")
     work.mkdir(parents=True, exist_ok=True)
-    output_of("git", "clone", "--quiet", PROJECT, source, cwd=work)
+    new = work / "source.new"  # a clone that was interrupted is no source
+    shutil.rmtree(new, ignore_errors=True)
+    output_of("git", "clone", "--quiet", "--no-checkout", PROJECT, new, cwd=work)
+    output_of("git", "checkout", "--quiet", "--detach", wanted, cwd=new)
+    os.replace(new, source)
     return source
 
 
@@ -202,7 +225,7 @@ def night(shop: Workshop, part: Part) -> bool:
 
 def join(shop: Workshop, part: Part) -> None:
     """Its runs become one results folder, with its figures and claims, without the meshes that --adapt
-    made: a run makes them again."""
+    made and without fields: a run makes them again."""
     runs = [shop.folder(part, k) for k in range(1, len(part.runs) + 1)]
     whole = shop.folder(part)
     shutil.rmtree(whole, ignore_errors=True)
@@ -211,8 +234,10 @@ def join(shop: Workshop, part: Part) -> None:
     for run in runs:
         if (run / "programs").is_dir():
             shutil.copytree(run / "programs", whole / "programs", dirs_exist_ok=True)
-    if part.figures:
-        draw(whole, part)
+        if part.pictures and (run / "fields").is_dir():
+            shutil.copytree(run / "fields", whole / "fields", dirs_exist_ok=True)
+    draw(whole, part)
+    shutil.rmtree(whole / "fields", ignore_errors=True)
     if part.claims:
         for stop, name in (("target", "claims.md"), ("paper", "claims_paper_stop.md")):
             output_of(shop.bench, "claims", part.name, f"--stop={stop}", f"--out={whole / name}",
@@ -220,13 +245,16 @@ def join(shop: Workshop, part: Part) -> None:
 
 
 def draw(whole: Path, part: Part) -> None:
-    """The figures that the part is for, and what was said of them."""
-    ran = call(PROJECT / "run", "figures", whole, f"--only={','.join(part.figures)}", cwd=PROJECT,
-               capture_output=True, text=True)
-    figures = whole / "figures"
-    figures.mkdir(exist_ok=True)
-    said = (ran.stdout + ran.stderr).replace(f"{whole}/", "")
-    (figures / "drawn.txt").write_text(said, encoding="utf-8")
+    """The figures and pictures that the part is for, and what was said of them."""
+    programs = [([PROJECT / "run", "figures"], part.figures),
+                ([sys.executable, PROJECT / "plots/gallery.py"], part.pictures)]
+    drawn = [call(*program, whole, f"--only={','.join(globs)}", cwd=PROJECT, capture_output=True, text=True)
+             for program, globs in programs if globs]
+    if drawn:
+        figures = whole / "figures"
+        figures.mkdir(exist_ok=True)
+        said = "".join(ran.stdout + ran.stderr for ran in drawn).replace(f"{whole}/", "")
+        (figures / "drawn.txt").write_text(said, encoding="utf-8")
 
 
 def missing(shop: Workshop, part: Part) -> list[str]:
@@ -240,7 +268,7 @@ def missing(shop: Workshop, part: Part) -> list[str]:
         runs.append("its runs joined")
     drawn = [path.stem for path in (shop.folder(part) / "figures").glob("*")
              if path.suffix in (".png", ".csv", ".md")]
-    return runs + [glob for glob in part.figures if not fnmatch.filter(drawn, glob)]
+    return runs + [glob for glob in part.figures + part.pictures if not fnmatch.filter(drawn, glob)]
 
 
 def make(shop: Workshop, part: Part) -> bool:
@@ -267,6 +295,17 @@ def records_of(folder: Path) -> list[dict]:
     return [json.loads(line) for text in texts for line in text.splitlines()]
 
 
+def contexts_of(folder: Path) -> list[dict]:
+    """Where and when: of every record, and of every night."""
+    nights = [json.loads(file.read_bytes()) for file in sorted((folder / "nights").glob("*.json"))]
+    return [entry["context"] for entry in records_of(folder) + nights]
+
+
+def revisions_of(contexts: list[dict]) -> list[str]:
+    """With a +: and changes that were not committed."""
+    return sorted({context["git_revision"][:10] + "+" * (context["git_dirty"] != "no") for context in contexts})
+
+
 def pack(folder: Path) -> None:
     """Many records, for the sake of who clones: gzip takes a fifteenth of their space."""
     lines = folder / "records.jsonl"
@@ -282,13 +321,11 @@ def row_of(folder: Path, part: Part) -> str | None:
     if not records:
         return None
     ended = Counter(record["status"] for record in records)
-    contexts = [record["context"] for record in records]
-    revisions = {context["git_revision"][:10] + "+" * (context["git_dirty"] != "no")
-                 for context in contexts}
+    contexts = contexts_of(folder)
     return (f"| [{part.name}]({part.name}) | {part.shows} | {len(records)} | "
             f"{', '.join(f'{n} {status}' for status, n in ended.most_common())} | "
             f"{sum(bool(record.get('noisy')) for record in records)} | "
-            f"{min(context['date'] for context in contexts)} | {', '.join(sorted(revisions))} |")
+            f"{min(context['date'] for context in contexts)} | {', '.join(revisions_of(contexts))} |")
 
 
 def table(rows: Iterable[str | None]) -> list[str]:
@@ -296,15 +333,40 @@ def table(rows: Iterable[str | None]) -> list[str]:
             *(row for row in rows if row)]
 
 
+def reproduced() -> list[str]:
+    """Names of the parts that --install put into results/, some time."""
+    said = HERE / "reproduced.md"
+    return re.findall(r"^\| \[([\w-]+)\]", said.read_text(encoding="utf-8"), re.MULTILINE) \
+        if said.exists() else []
+
+
+def reproduced_text(parts: Iterable[Part]) -> str:
+    rows = table(row_of(HERE / part.name, part) for part in parts)
+    return "\n".join(["# What was measured, by `./run reproduce`", "", *rows, ""])
+
+
+def images_of(part: Part) -> list[tuple[Path, Path]]:
+    """Figures in results/, and their copies in docs/."""
+    return [(HERE / part.name / "figures" / f"{name}.png", HERE.parent / "docs/images" / f"{name}.png")
+            for name in part.images]
+
+
+def why_not(shop: Workshop, part: Part) -> str:
+    """What keeps the part out of results/; empty: nothing."""
+    if lacks := missing(shop, part):
+        return f"{', '.join(lacks)} missing"
+    revisions = revisions_of(contexts_of(shop.folder(part)))
+    if len(revisions) > 1 or any(revision.endswith("+") for revision in revisions):
+        return f"its records come from {', '.join(revisions)} (allowed: one committed revision)"
+    return ""
+
+
 def install(shop: Workshop, parts: list[Part], every: list[Part]) -> None:
     """Replaces the folders in results/ of those parts that are complete."""
-    said = HERE / "reproduced.md"
-    kept = re.findall(r"^\| \[([\w-]+)\]", said.read_text(encoding="utf-8"), re.MULTILINE) \
-        if said.exists() else []
+    kept = reproduced()
     for part in parts:
-        lacks = missing(shop, part)
-        if lacks:
-            print(f"{part.name}: left as it is in results/, {', '.join(lacks)} missing")
+        if reason := why_not(shop, part):
+            print(f"{part.name}: left as it is in results/, {reason}")
             continue
         new, old = HERE / f".{part.name}.new", HERE / f".{part.name}.old"
         shutil.rmtree(new, ignore_errors=True)
@@ -314,20 +376,70 @@ def install(shop: Workshop, parts: list[Part], every: list[Part]) -> None:
             os.replace(HERE / part.name, old)
         os.replace(new, HERE / part.name)
         shutil.rmtree(old, ignore_errors=True)
+        for figure, copy in images_of(part):
+            shutil.copyfile(figure, copy)
         kept.append(part.name)
         print(f"{part.name}: in results/")
-    rows = table(row_of(HERE / part.name, part) for part in every if part.name in kept)
-    said.write_text("\n".join(["# What was measured, by `./run reproduce`", "", *rows, ""]),
-                    encoding="utf-8")
+    installed = [part for part in every if part.name in kept]
+    (HERE / "reproduced.md").write_text(reproduced_text(installed), encoding="utf-8")
     output_of(sys.executable, PROJECT / "plots/quoted_numbers.py", "--write", cwd=PROJECT)
+    revisions = revisions_of([context for part in installed for context in contexts_of(HERE / part.name)])
+    if len(revisions) > 1:  # no reason to refuse: parts come one after the other
+        print(f"results/ has records of {len(revisions)} revisions now: {', '.join(revisions)} "
+              "(--check: which parts)")
     print("look at git diff, then commit")
+
+
+def without_part(every: list[Part]) -> list[str]:
+    """Folders with committed records that reproduce.toml does not name."""
+    tracked = output_of("git", "ls-files", "--", "*records.jsonl*", "*/nights/*", cwd=HERE).splitlines()
+    return sorted({file.split("/")[0] for file in tracked} - {part.name for part in every})
+
+
+def out_of_date(every: list[Part]) -> list[str]:
+    """What --install writes and is not of the records that are there."""
+    said = HERE / "reproduced.md"
+    installed = [part for part in every if part.name in reproduced()]
+    old = [] if said.exists() and said.read_text(encoding="utf-8") == reproduced_text(installed) else [said]
+    old += [copy for part in installed for figure, copy in images_of(part)
+            if not copy.exists() or copy.read_bytes() != figure.read_bytes()]
+    return [f"{file.relative_to(HERE.parent)}: not of these records (--install writes it)" for file in old]
+
+
+def check(parts: list[Part], every: list[Part], revision: str | None) -> int:
+    """Prints where the records of each part come from; 1: not from one committed revision, or not all there."""
+    wanted = commit_of(revision)[:10] if revision else None
+    others = without_part(every) if parts == every else []
+    contexts = {name: contexts_of(HERE / name) for name in [*(part.name for part in parts), *others]}
+    rows = [("part", "records", "first run", "last run", "revision")]
+    for name, own in contexts.items():
+        dates = [context["date"] for context in own] or ["-"]
+        rows.append((name, str(len(own)), min(dates), max(dates), ", ".join(revisions_of(own))))
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    for row in rows:
+        print("  ".join(word.ljust(width) for word, width in zip(row, widths)).rstrip())
+    found = revisions_of([context for own in contexts.values() for context in own])
+    faults = [f"no records: {name}" for name, own in contexts.items() if not own]
+    faults += [f"no part of reproduce.toml: {name}" for name in others]
+    faults += [f"changes that were not committed: {one}" for one in found if one.endswith("+")]
+    if len(found) > 1:
+        faults.append(f"{len(found)} revisions: {', '.join(found)}")
+    if wanted and set(found) - {wanted}:
+        faults.append(f"not all of --revision={revision}, {wanted}")
+    faults += out_of_date(every)
+    print(*faults or [f"one revision: {', '.join(found)}"], sep="\n")
+    return 1 if faults else 0
 
 
 def run(args: argparse.Namespace) -> int:
     if args.program and not args.quick:
         raise Refused("--program: only with --quick (otherwise the program is of one revision)")
+    if args.revision and args.quick:
+        raise Refused("--revision: not with --quick, which measures the program as it is")
     every = parts_of(HERE / "reproduce.toml", args.quick)
     parts = chosen(every, args.only)
+    if args.check:
+        return check(parts, every, args.revision)
     if args.quick:
         work = args.work or PROJECT / "build/reproduce-quick"
         shutil.rmtree(work, ignore_errors=True)
@@ -335,7 +447,11 @@ def run(args: argparse.Namespace) -> int:
         shop = Workshop(work, PROJECT, args.program, thin=True)
     else:
         work = args.work or PROJECT / "build/reproduce"
-        source = PROJECT if args.dry_run and not (work / "source").exists() else pinned(work)
+        if args.dry_run and not (work / "source").exists():
+            source = PROJECT
+            commit_of(args.revision or "HEAD")
+        else:
+            source = pinned(work, args.revision)
         shop = Workshop(work, source)
     if args.install:
         install(shop, parts, every)
@@ -356,6 +472,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="./run reproduce", usage="./run reproduce [options]",
                                      description=__doc__.split("\n\n")[2].replace("\n", " "))
     parser.add_argument("--only", metavar="PART,...", help="these parts of results/, names or globs")
+    parser.add_argument("--revision", metavar="REV", help="what is built and measured (default: what DIR has, "
+                        "or else HEAD); with --check: what all records should be of")
     parser.add_argument("--work", metavar="DIR", type=lambda path: Path(path).absolute(),
                         help="where it is measured (default: build/reproduce)")
     parser.add_argument("--program", metavar="FILE", type=lambda path: Path(path).absolute(),
@@ -366,6 +484,8 @@ def main() -> int:
                       help="a thin selection that draws every figure, a few minutes")
     kind.add_argument("--install", action="store_true",
                       help="put what is complete into results/, rewrite the numbers quoted")
+    kind.add_argument("--check", action="store_true",
+                      help="print revision and dates of the records in results/; exit status 1 if revisions differ")
     try:
         return run(parser.parse_args())
     except (Refused, OSError) as wrong:

@@ -21,11 +21,16 @@ CHOSEN = re.compile(r"(\w+)=([-+.\de]+)(?:;|$)")
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     run = of_scene([row for row in rows if row.stop == "target" and row.study in ("", "error") and not row.knob])
     known = [row for row in run if row.completed and row.time_s and error_of(row)
-             and (row.method in COMPARED or value_of(row) is not None)]
+             and (is_compared(row) or value_of(row) is not None)]
     meshes = [own for own in by_mesh(known).values() if sweeps_of(own)][:PANELS]
     if meshes:
         yield Drawing("peers_penalty", [row for own in meshes for row in own], draw, table_of,
                       options=dict(run=run))
+
+
+def is_compared(row: Row) -> bool:
+    """Without a parameter: one point."""
+    return row.method in COMPARED or bool(row.program and row.in_displacements and value_of(row) is None)
 
 
 def value_of(row: Row) -> float | None:
@@ -57,35 +62,36 @@ def table_of(rows: list[Row]) -> str:
 
 def why(row: Row) -> str:
     return "no total error" if not error_of(row) else \
-        "without a parameter of its own" if value_of(row) is None else "one value only"
+        "not in displacements" if value_of(row) is None else "one value only"
 
 
 def draw(rows: list[Row], run: list[Row]) -> Figure:
     meshes = by_mesh(rows)
     names = sorted({f"{own[0].family.removeprefix('EXTERNAL:')}: {name_of(own[0])}"
                     for of_mesh in meshes.values() for own in sweeps_of(of_mesh).values()})
-    lines = math.ceil(len(meshes) / IN_ROW)
+    in_row = min(IN_ROW, len(meshes))
+    lines = math.ceil(len(meshes) / in_row)
     figure = sheet(
         TOP + lines * (HEIGHT + BETWEEN) - BETWEEN + 0.45, "What a program's own parameter costs",
         f"Total error over the time of one solve by the program's own clock; scene {rows[0].scene}, "
         f"{threads(rows)}. Joined: a program at several values of its parameter, written at the points "
-        f"({'; '.join(names)}). Open: not ok, such as through the wall by more than it is allowed.",
+        f"({'; '.join(names)}); others have one point. Open: not ok, such as through the wall by more than it is allowed.",
         left_out(run, rows, why))
     times, errors = (log_limits(values, 1.7) for values in ([row.time_s for row in rows], map(error_of, rows)))
-    width = (PAGE_WIDTH - LEFT - 0.15 - GAP) / IN_ROW
+    width = (PAGE_WIDTH - LEFT - 0.15 - GAP * (in_row - 1)) / in_row
     for k, (mesh, own) in enumerate(meshes.items()):
-        axes = panel_at(figure, LEFT + k % IN_ROW * (width + GAP), TOP + k // IN_ROW * (HEIGHT + BETWEEN),
+        axes = panel_at(figure, LEFT + k % in_row * (width + GAP), TOP + k // in_row * (HEIGHT + BETWEEN),
                         width, HEIGHT)
         log_log(axes, xlim=times, ylim=errors, xlabel="time, s", title=plain(mesh),
-                ylabel="" if k % IN_ROW else "total error of the stresses")
-        axes.tick_params(labelleft=k % IN_ROW == 0)
+                ylabel="" if k % in_row else "total error of the stresses")
+        axes.tick_params(labelleft=k % in_row == 0)
         draw_panel(axes, own)
     return figure
 
 
 def draw_panel(axes: Axes, rows: list[Row]) -> None:
     labels = Labels(axes)
-    lines = sweeps_of(rows) | {row.method: [row] for row in rows if row.method in COMPARED}
+    lines = sweeps_of(rows) | {row.method: [row] for row in rows if is_compared(row)}
     for name, own in lines.items():
         colour, marker, *_ = own[0].look
         labels.line(name.removeprefix("EXTERNAL:"), [row.time_s for row in own], [error_of(row) for row in own],

@@ -188,6 +188,20 @@ class GalleryTest(FolderTest):
         words = drawn.words_of(gallery.draw_levels(maps, ("degree 1", "degree 3")))
         self.assertIn("degree 3\n2 triangles, total error 1 %", words)
 
+    def test_only_draws_what_is_asked_for_and_removes_nothing(self) -> None:
+        names = ["Mesh0~adapt1--default--HYBRID", "Mesh0~adapt1k2--default--HYBRID+k=2"]
+        for name in names:
+            write_solution(self.fields, name)
+            write_shares(self.fields, name, [0.25, 0.75])
+        with SMALL:
+            self.assertEqual(run(gallery, self.results, f"--only=error_map_{names[0]}")[::2], (0, ""))
+            self.assertEqual(run(gallery, self.results, "--only=adapted_d*")[::2], (0, ""))
+        self.assertEqual(names_in(self.figures), {f"{picture}.{kind}" for kind in ("png", "csv")
+                                                  for picture in ("adapted_degrees", f"error_map_{names[0]}")})
+        status, out, err = run(gallery, self.results, "--only=adapted_meshes")
+        self.assertEqual((status, out, err.count("\n")), (2, "", 1))
+        self.assertIn("'adapted_meshes' is no picture of these fields (there are: fields_", err)
+
     def test_vector_figures_have_their_fonts(self) -> None:
         write_solution(self.fields, NAMES[1])
         with SMALL:

@@ -168,19 +168,20 @@ class PeersPenaltyTest(unittest.TestCase):
         for axes in figure.axes:
             sweep, = (line for line in axes.lines if len(line.get_xdata()) == 3)
             self.assertEqual(list(sweep.get_ydata()), list(self.ERRORS.values()))
-            self.assertEqual({text.get_text() for text in axes.texts}, {"x", "50", "500", "5000", "P2", "HYBRID"})
+            self.assertEqual({text.get_text() for text in axes.texts},
+                             {"x", "50", "500", "5000", "P2", "HYBRID", *["y"] * (axes.get_title() == "Mesh0")})
             hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white"]
             self.assertEqual([line.get_ydata()[0] for line in hollow], [0.3])  # what is not ok
         words = drawn.words_of(figure)
         self.assertIn("(x: penalty)", words)
-        self.assertIn("without a parameter of its own", words)
+        self.assertIn("3STEPD (not in displacements)", words)
         painted, renderer = drawn.paint(figure)
         drawn.assert_readable(self, figure, painted, renderer)
 
     def test_its_table(self) -> None:
         drawing, = penalty_figure.drawings(made_up.read(self.rows(("Mesh0",))))
         table = {row["method"]: row for row in drawn.table_of(drawing)}
-        self.assertEqual(set(table), {"P2", "HYBRID", *(f"EXTERNAL:x:penalty={value}" for value in self.ERRORS)})
+        self.assertEqual(set(table), {"P2", "HYBRID", "EXTERNAL:y", *(f"EXTERNAL:x:penalty={value}" for value in self.ERRORS)})
         soft = table["EXTERNAL:x:penalty=50"]
         self.assertEqual((soft["parameter"], float(soft["value"]), float(soft["error"])), ("penalty", 50, 0.3))
         self.assertEqual(table["P2"]["value"], "")

@@ -179,6 +179,14 @@ class PageTest(unittest.TestCase):
         self.assertNotIn("hidden", document.one("section", id="figures").attrib)
         self.assertIn("hidden", self.shown().one("section", id="figures").attrib)
 
+    def test_errors_stand_next_to_the_time(self) -> None:
+        keys = [head.attrib["data-key"] for head in self.shown().one("table", id="table").all("th", scope="col")]
+        others = [key for key in keys[keys.index("time_s"):] if key not in ("time_mad_s", "peak_heap_bytes")]
+        errors = [key for key in others if key.startswith("error_")]
+        self.assertEqual(others[:1 + len(errors)], ["time_s", *errors])
+        self.assertLess(len(errors), len(others) - 1)  # there is more than errors
+        self.assertTrue(errors)
+
     def test_bodies_have_their_headings(self) -> None:
         history = made_up.write_history(self.folder / "own", nights=2)
         for file in (history / "nights").iterdir():

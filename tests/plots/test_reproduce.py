@@ -1,10 +1,12 @@
-"""./run reproduce puts complete parts into results/, and says of each what it is."""
+"""./run reproduce measures one revision, puts complete parts into results/, and says of each what it is."""
 import gzip
 import importlib.util
 import json
+import subprocess
 import sys
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
@@ -31,13 +33,16 @@ class InstallTest(unittest.TestCase):
         self.parts = [self.program.Part(name, f"shows {name}", ["--mesh=Mesh0"], ["growth"])
                       for name in ("first", "second")]
 
-    def measured(self, name: str, revision: str, figures: tuple[str, ...]) -> None:
+    def measured(self, name: str, revision: str, figures: tuple[str, ...], *later: str) -> None:
+        """later: revisions of further records."""
         run, whole = (self.folder / "work" / place for place in (f"runs/{name}/1", f"results/{name}"))
         run.mkdir(parents=True)
         (run / "complete").touch()
         (whole / "figures").mkdir(parents=True)
-        context = {"git_revision": revision, "git_dirty": "no", "date": "2026-11-23T00:00:00Z"}
-        (whole / "records.jsonl").write_text(json.dumps({"status": "ok", "context": context}) + "\n")
+        contexts = [{"git_revision": one.rstrip("+"), "git_dirty": "yes" if one.endswith("+") else "no",
+                     "date": f"2026-11-{day}T00:00:00Z"} for day, one in enumerate((revision, *later), 23)]
+        (whole / "records.jsonl").write_text(
+            "".join(json.dumps({"status": "ok", "context": context}) + "\n" for context in contexts))
         for figure in figures:
             (whole / "figures" / figure).touch()
 
@@ -80,6 +85,126 @@ class InstallTest(unittest.TestCase):
         self.install(0)
         said = self.install(1)
         self.assertLess(said.index("| abc |"), said.index("| def |"))
+
+
+    def test_a_part_of_several_revisions_is_left_as_it_is(self) -> None:
+        self.measured("first", "abc", ("growth.png",), "def")
+        self.measured("second", "abc+", ("growth.png",))
+        self.assertNotIn("[", self.install(0, 1))
+
+    def test_a_copy_of_a_figure_is_that_of_its_part(self) -> None:
+        self.parts[0] = replace(self.parts[0], images=["growth"])
+        self.measured("first", "abc", ("growth.png",))
+        copy = self.folder / "docs/images/growth.png"
+        copy.parent.mkdir(parents=True)
+        copy.write_bytes(b"old")
+        self.install(0)
+        self.assertEqual(b"", copy.read_bytes())
+        self.assertEqual([], self.program.out_of_date(self.parts))
+        copy.write_bytes(b"other")
+        self.assertEqual(["docs/images/growth.png: not of these records (--install writes it)"],
+                         self.program.out_of_date(self.parts))
+
+    def check(self, *parts: int, others: str = "") -> tuple[int, list[str]]:
+        with mock.patch.object(self.program, "output_of", return_value=others), \
+                mock.patch("builtins.print") as printed:
+            status = self.program.check([self.parts[k] for k in parts] or self.parts, self.parts, None)
+        return status, [line for call in printed.call_args_list for line in call.args]
+
+    def test_records_of_one_revision_pass_also_when_sessions_were_several(self) -> None:
+        self.measured("first", "abc", ("growth.png",), "abc")
+        self.measured("second", "abc", ("growth.png",))
+        self.install(0)
+        self.install(1)
+        status, lines = self.check(others="first/records.jsonl\nsecond/records.jsonl.gz")
+        self.assertEqual((status, lines[-1]), (0, "one revision: abc"))
+        self.assertEqual(lines[1].split(),
+                         ["first", "2", "2026-11-23T00:00:00Z", "2026-11-24T00:00:00Z", "abc"])
+
+    def test_records_of_several_revisions_do_not_pass(self) -> None:
+        self.measured("first", "abc", ("growth.png",))
+        self.measured("second", "def", ("growth.png",))
+        self.install(0, 1)
+        status, lines = self.check()
+        self.assertEqual((status, lines[-1]), (1, "2 revisions: abc, def"))
+        self.assertEqual(self.check(1)[0], 0)
+        (self.program.HERE / "reproduced.md").write_text("old", encoding="utf-8")
+        self.assertEqual((1, "results/reproduced.md: not of these records (--install writes it)"),
+                         (self.check(1)[0], self.check(1)[1][-1]))
+
+    def test_a_part_without_records_and_records_without_a_part_do_not_pass(self) -> None:
+        self.measured("first", "abc", ("growth.png",))
+        self.install(0)
+        status, lines = self.check(others="first/records.jsonl\nold/nights/2026.json")
+        self.assertEqual(status, 1)
+        self.assertEqual(lines[-3:],
+                         ["no records: second", "no records: old", "no part of reproduce.toml: old"])
+
+    def test_every_night_is_looked_at(self) -> None:
+        nights = self.program.HERE / "first/nights"
+        nights.mkdir(parents=True)
+        for k, revision in enumerate(("abc", "def")):
+            context = {"git_revision": revision, "git_dirty": "no", "date": f"2026-11-2{k}T00:00:00Z"}
+            (nights / f"{k}.json").write_text(json.dumps({"context": context}))
+        self.assertIn("2 revisions: abc, def", self.check(0)[1])
+
+
+class RevisionTest(unittest.TestCase):
+    def setUp(self) -> None:
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.work = Path(place.name, "work")
+        self.program = program()
+        self.program.PROJECT = Path(place.name, "project")
+        self.program.PROJECT.mkdir()
+        self.git("init", "--quiet")
+        self.first, self.second = self.commit("one"), self.commit("two")
+
+    def git(self, *arguments: str) -> str:
+        return subprocess.run(["git", *arguments], cwd=self.program.PROJECT, capture_output=True, text=True,
+                              check=True).stdout.strip()
+
+    def commit(self, text: str) -> str:
+        (self.program.PROJECT / "file").write_text(text)
+        self.git("add", "file")
+        self.git("-c", "user.name=test", "-c", "user.email=test@localhost", "commit", "--quiet", "-m", text)
+        return self.git("rev-parse", "HEAD")
+
+    def pinned(self, revision: str | None) -> str:
+        return (self.program.pinned(self.work, revision) / "file").read_text()
+
+    def refused(self, revision: str | None) -> str:
+        with self.assertRaises(self.program.Refused) as refused:
+            self.pinned(revision)
+        self.assertNotIn("\n", str(refused.exception))
+        return str(refused.exception)
+
+    def test_a_revision_is_measured_whatever_came_after_it(self) -> None:
+        self.assertEqual(self.pinned(self.first[:8]), "one")
+
+    def test_by_default_it_is_head_and_stays_that_one(self) -> None:
+        self.assertEqual(self.pinned(None), "two")
+        third = self.commit("three")
+        self.assertEqual(self.pinned(None), "two")
+        self.assertEqual(self.pinned("HEAD~1"), "two")
+        there = self.second[:10]
+        self.assertIn(f"has {there}, not {third} (allowed: --revision={there}, or another --work)",
+                      self.refused(third))
+
+    def test_changes_that_are_not_committed_are_refused_unless_a_revision_is_named(self) -> None:
+        (self.program.PROJECT / "file").write_text("changed")
+        self.assertIn("allowed: a clean tree, or --revision", self.refused(None))
+        self.assertEqual(self.pinned("HEAD"), "two")
+
+    def test_what_is_no_revision_is_refused_and_leaves_nothing(self) -> None:
+        for wrong in ("nowhere", "-x"):
+            self.assertIn(f"--revision: '{wrong}' is none of this repository", self.refused(wrong))
+        self.assertFalse(self.work.exists())
+
+    def test_an_interrupted_clone_is_made_again(self) -> None:
+        (self.work / "source.new").mkdir(parents=True)
+        (self.work / "source.new/file").touch()
+        self.assertEqual(self.pinned(None), "two")
 
 
 if __name__ == "__main__":
