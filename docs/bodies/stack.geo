@@ -1,4 +1,4 @@
-// Three blocks on one another, each between rollers at its left side.
+// Three blocks on one another; the middle one is pressed down at its left side.
 DefineConstant[ h = 2 ];
 Point(1) = {0, 0, 0, h};   Point(2) = {20, 0, 0, h};   Point(3) = {20, 6, 0, h};   Point(4) = {0, 6, 0, h};
 Line(1) = {1, 2};  Line(2) = {2, 3};  Line(3) = {3, 4};  Line(4) = {4, 1};

@@ -29,10 +29,12 @@ SCENES = {
                                        "displacement": {"support": "normal"}}},
 }
 # Of docs/bodies, with changes to their scenes: friction and a vertex that only one body is held at, three bodies,
-# curved faces without friction, a wall next to a pair.
+# the same where a roller meets a prescribed vertex, curved faces without friction, a wall next to a pair.
 JOINED = {
     "two": ("blocks", {}),
     "three": ("stack", {}),
+    "at a roller": ("stack", {"roles": {"4": "displacement:side"},
+                              "boundary": {"displacement:side": {"support": "normal", "displacement_mm": [0, 0]}}}),
     "curved": ("cylinders", {}),
     "at a wall": ("indenter", {"roles": {"11": "contact:floor"},
                                "boundary": {"contact:floor": {"friction": 0.1, "wall": {
