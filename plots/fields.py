@@ -87,15 +87,16 @@ class Fields:
 def chains(edges: np.ndarray) -> list[np.ndarray]:
     """Numbers of the edges (n, 2, 2), chained end to start; a ring begins anywhere.
 
-    Where two bodies touch an edge of one starts where an edge of the other ends, and goes straight
-    back: no chain does.
+    Where two bodies touch, an edge of one starts where an edge of the other ends, and goes back: no
+    chain does.
     """
+    back = -0.9  # a turn by 154° or more
     starting = defaultdict(list)
     for e, start in enumerate(edges[:, 0]):
         starting[tuple(start)].append(e)
     following = {}
-    for e, (start, end) in enumerate(edges):
-        on = [f for f in starting[tuple(end)] if (edges[f, 1] != start).any()]
+    for e, end in enumerate(edges[:, 1]):
+        on = [f for f in starting[tuple(end)] if cosine(edges[e], edges[f]) > back]
         if on:
             following[e] = max(on, key=lambda f: cosine(edges[e], edges[f]))
     goes_on = set(following.values())

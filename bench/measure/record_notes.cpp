@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/measure/heap_probe.hpp"
+#include "solvers/base/method.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -140,20 +141,28 @@ void note(const Solution& solution, Record& record) {
   }
 }
 
+// At the start, middle or end of a contact edge, before it deforms.
+double gap_mm_at(const Problem& problem, int row, int node) {
+  const auto [start, end] = problem.mesh.boundary[row].vertices;
+  const Eigen::Vector2d &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+  return problem.offset_at(a + node * (b - a) / 2, row)
+      .along(problem.frame_at(row, node, 2).normal)
+      .x();
+}
+
 std::string words_of_least_gap(const Problem& problem) {
   if (!problem.later_steps.empty()) return "";  // of each step another
   double least_mm = std::numeric_limits<double>::infinity();
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
-    const auto [start, end] = problem.mesh.boundary[row].vertices;
-    const Eigen::Vector2d &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
-    for (int node = 0; node < 3; ++node)
-      least_mm = std::min(least_mm, problem.offset_at(a + node * (b - a) / 2, row)
-                                        .along(problem.frame_at(row, node, 2).normal)
-                                        .x());
+    const int other = problem.opposite_of(row);
+    for (int node = 0; node < 3; ++node) {
+      const double beyond = other == Problem::no_row ? 0 : gap_mm_at(problem, other, 2 - node);
+      least_mm = std::min(least_mm, gap_mm_at(problem, row, node) + beyond);
+    }
   }
   if (std::isinf(least_mm)) return "";
-  return fmt::format("; the least gap to the wall, before it deforms, is {:.3g} mm", least_mm);
+  return fmt::format("; the least gap, before anything deforms, is {:.3g} mm", least_mm);
 }
 
 void note_what_is_idle(const Problem& problem, Record& record) {
@@ -164,8 +173,9 @@ void note_what_is_idle(const Problem& problem, Record& record) {
     record.status_reason = "there is no contact boundary";
   } else if (const std::int64_t points = record.n_open.value_or(0);
              points > 0 && record.n_stick.value_or(0) + record.n_slip.value_or(0) == 0) {
-    record.status_reason = fmt::format("nothing touches the wall: all {} contact points are open{}",
-                                       points, words_of_least_gap(problem));
+    record.status_reason =
+        fmt::format("nothing touches the {}: all {} contact points are open{}",
+                    obstacle_of(problem), points, words_of_least_gap(problem));
   }
 }
 

@@ -42,6 +42,11 @@ TimedRun timed_run_of(const Json& json);
 // A status other than the detail run's becomes the record's, and clears samples and memory figures.
 void add_run(const TimedRun& run, Record& record);
 
+// What contact faces press on, for messages.
+inline const char* obstacle_of(const Problem& problem) {
+  return problem.opposite.empty() ? "wall" : "wall or other body";
+}
+
 void note(const Solution& solution, Record& record);
 // Needs the verification. by: Record::discretisation_by, the source of the displacements.
 void note(const ConstitutiveError& error, const std::string& by, Record& record);

@@ -324,10 +324,12 @@ class FieldsTest(unittest.TestCase):
             return [[0, a], [0, b]]
         edges = np.array([edge(1, 2), edge(5, 6), edge(0, 1), edge(2, 3)])
         self.assertEqual([c.tolist() for c in fields.chains(edges)], [[1], [2, 0, 3]])
-        ring = np.array([edge(0, 1), edge(1, 2), edge(2, 0)])
+        corners = np.array([[0, 0], [1, 0], [0, 1]], float)
+        ring = np.stack([corners, np.roll(corners, -1, 0)], 1)
         self.assertEqual([c.tolist() for c in fields.chains(ring)], [[0, 1, 2]])
         line = np.array([[0, 0], [1, 0], [2, 0.1], [3, 0]], float)  # of one body, and of another on it
-        both = np.array([line[[0, 1]], line[[1, 2]], line[[2, 3]], line[[3, 2]], line[[2, 1]], line[[1, 0]]])
+        back = line[::-1] + [[0, 0], [0, 1e-13], [0.3, 0], [0, 0]]
+        both = np.array([side[k:k + 2] for side in (line, back) for k in range(3)])
         self.assertEqual([c.tolist() for c in fields.chains(both)], [[0, 1, 2], [3, 4, 5]])
 
     def test_a_face_around_a_hole_begins_where_its_y_is_least(self) -> None:
