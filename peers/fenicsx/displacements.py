@@ -22,6 +22,15 @@ from petsc4py import PETSc
 from scipy.sparse import csr_matrix
 from scipy.spatial import cKDTree
 
+try:
+    from basix.ufl import element
+    from dolfinx.fem import functionspace
+except ImportError:  # 0.5
+    from dolfinx.fem import FunctionSpace as functionspace
+
+    def element(family, cell, degree, shape=()):
+        return (ufl.VectorElement if shape else ufl.FiniteElement)(family, cell, degree)
+
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from answer import write_answer  # noqa: E402
 from constraints import boundary_nodes, held_nodes, loads, sides_of  # noqa: E402
@@ -39,21 +48,21 @@ class Elements:
 
     def __init__(self, problem):
         vertices, edges = problem["vertices_mm"], problem["edges"]
-        shape = ufl.Mesh(ufl.VectorElement("Lagrange", ufl.triangle, 1))
+        shape = ufl.Mesh(element("Lagrange", "triangle", 1, shape=(2,)))
         self.mesh = mesh.create_mesh(MPI.COMM_SELF, problem["triangles"].astype(np.int64), vertices, shape)
-        self.u = fem.Function(fem.VectorFunctionSpace(self.mesh, ("Lagrange", 2)))
+        self.u = fem.Function(functionspace(self.mesh, element("Lagrange", "triangle", 2, shape=(2,))))
         at = self.u.function_space.tabulate_dof_coordinates()[:, :2]
         self.nodes = cKDTree(at).query(np.vstack([vertices, vertices[edges].mean(1)]))[1]
         self.triangle_of_cell = np.array(self.mesh.topology.original_cell_index)
 
     def constants(self, of_triangle):
-        function = fem.Function(fem.FunctionSpace(self.mesh, ("DG", 0)))
+        function = fem.Function(functionspace(self.mesh, element("DG", "triangle", 0)))
         function.x.array[:] = of_triangle[self.triangle_of_cell]
         return function
 
     def along_edges(self, problem, rows, values):
         """Quadratic on every contact edge: values at start, middle, end; what it is elsewhere does not matter."""
-        space = fem.FunctionSpace(self.mesh, ("DG", 2))
+        space = functionspace(self.mesh, element("DG", "triangle", 2))
         function, at = fem.Function(space), space.tabulate_dof_coordinates()[:, :2]
         cell_of = np.argsort(self.triangle_of_cell)
         triangle_of = {frozenset(pair): t for t, abc in enumerate(problem["triangles"].tolist())
@@ -65,7 +74,7 @@ class Elements:
         return function
 
     def measure(self, problem, rows):
-        self.mesh.topology.create_entities(1)
+        self.mesh.topology.create_connectivity(1, 2)  # for the midpoints
         facets = np.arange(self.mesh.topology.index_map(1).size_local, dtype=np.int32)
         middles = problem["vertices_mm"][problem["boundary"][rows]].mean(1)
         at = mesh.compute_midpoints(self.mesh, 1, facets)[:, :2]

@@ -75,6 +75,11 @@ esac"""
         self.assertEqual((ran.returncode, ran.stdout, ran.stderr),
                          (2, "", "run: missing packages: cmake g++ (apt-get install them)\n"))
 
+    def test_a_package_that_others_only_mention_is_not_packaged(self) -> None:
+        for said, status in (("echo Package: a", 0), (":", 1), ("echo 'E: No packages found' >&2; exit 100", 1)):
+            ran = self.call("packaged", "a", stubs={"apt-cache": said})
+            self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (status, "", ""))
+
     def compare(self, folder: Path, *arguments: str) -> subprocess.CompletedProcess:
         """./run of a project whose programs tell their arguments."""
         project = folder / "project"
