@@ -33,9 +33,9 @@ Formats  google-benchmark  Google Benchmark's JSON, for its compare.py and most 
          latex             the same as a tabular, for the package booktabs
 
 Columns  case, mesh, scene, method, n_phi, n_c, W, time, ±, contact_law, unchecked, heap, program,
-         its_memory, error_stress, error_force, natural_map, Siconos, error_total, penetration,
-         between_nodes, tension, over_friction, unbalanced, adapted_in, status; case comes first
-         unless one of the first four is chosen
+         its_processor, its_memory, error_stress, error_force, natural_map, Siconos, error_total,
+         penetration, between_nodes, tension, over_friction, unbalanced, adapted_in, status; case
+         comes first unless one of the first four is chosen
 
 DIR is a folder with records.jsonl; for csv also a history, a folder with nights/.
 

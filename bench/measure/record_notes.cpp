@@ -173,9 +173,8 @@ void note_what_is_idle(const Problem& problem, Record& record) {
     record.status_reason = "there is no contact boundary";
   } else if (const std::int64_t points = record.n_open.value_or(0);
              points > 0 && record.n_stick.value_or(0) + record.n_slip.value_or(0) == 0) {
-    record.status_reason =
-        fmt::format("nothing touches the {}: all {} contact points are open{}",
-                    obstacle_of(problem), points, words_of_least_gap(problem));
+    record.status_reason = fmt::format("nothing touches the {}: all {} contact points are open{}",
+                                       obstacle_of(problem), points, words_of_least_gap(problem));
   }
 }
 
