@@ -134,6 +134,16 @@ ControlPoints control_points(const Problem& problem, int degree) {
   return with_degree(degree - 1, [&](auto k) { return control_points<k + 1>(problem); });
 }
 
+Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementField& u) {
+  const int m = points.law.components;
+  Eigen::VectorXd of_points(points.law.size());
+  for (int p = 0; p < points.law.count; ++p)
+    for (int k = 0; k < m; ++k)
+      of_points(m * p + k) =
+          k == 1 && points.on_roller[p] ? 0 : points.frame(p).col(k).dot(u.col(points.node[p]));
+  return of_points;
+}
+
 Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress) {
   const int degree = stress.degree() + 1;
   const ControlPoints points = control_points(problem, degree);

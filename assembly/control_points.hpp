@@ -34,6 +34,9 @@ struct ControlPoints {
 };
 ControlPoints control_points(const Problem& problem, int degree = 2);
 
+// u at them, in the rows of their forces; along a roller 0.
+Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementField& u);
+
 // Contact forces of displacements at their control points: nodal forces of their stresses, of one
 // degree less, without the loads, N. Per point normal, tangential (μ = 0: normal).
 Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress);

@@ -242,7 +242,11 @@ auto pair_of(AnyScene& scene, const ContactPair& of_step) {
 }
 
 void check_contacts_of_step(const Scene& scene, std::size_t k) {
-  for (const ContactPair& pair : scene.later_steps[k].contacts) {
+  const std::vector<ContactPair>& contacts = scene.later_steps[k].contacts;
+  for (const ContactPair& pair : contacts) {
+    if (std::ranges::count(contacts, pair.between, &ContactPair::between) > 1)
+      fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
+           "twice (allowed: every pair once)");
     if (pair_of(scene, pair) == scene.contacts.end())
       fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
            "(allowed: as in contacts of the scene)");

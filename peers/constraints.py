@@ -95,10 +95,11 @@ def vertices_apart(problem):
 
 
 def contact(problem, sides, held, of_coefficients):
-    """Rows (normal, tangential), gaps, friction of every node or Bernstein coefficient of contact edges.
+    """Rows (normal, tangential), gaps, friction, slid of every node or Bernstein coefficient of contact edges.
 
-    A vertex between two edges has their mean normal, the smaller gap and the smaller friction. Of two bodies
-    the rows are those of the difference of their displacements, the gaps those of both. A roller takes friction.
+    Slip is tangential row times u, less slid: where earlier load steps have left it. A vertex between two edges
+    has their mean normal, the smaller gap and the smaller friction. Of two bodies the rows are those of the
+    difference of their displacements, gaps and slid those of both. A roller takes friction.
     """
     weights = np.eye(3)
     if of_coefficients:
@@ -107,9 +108,10 @@ def contact(problem, sides, held, of_coefficients):
     for side in sides_of(problem, "contact"):
         normals = problem["contact_normals"][side].reshape(3, 2)
         gaps = weights @ problem["gap_mm"][side]
+        slid = weights @ problem["slid_mm"][side] if "slid_mm" in problem else np.zeros(3)
         other = opposite_of(problem, side)
         for k, node in enumerate(sides[side]):
-            point = points.setdefault(node, [sides[side], weights[k], 0, np.inf, np.inf])
+            point = points.setdefault(node, [sides[side], weights[k], 0, np.inf, np.inf, slid[k]])
             point[2] = point[2] + normals[k]
             point[3] = min(point[3], gaps[k])
             point[4] = min(point[4], problem["friction"][side])
@@ -117,21 +119,22 @@ def contact(problem, sides, held, of_coefficients):
                 free.add(node)
             if other >= 0:
                 across[node] = sides[other][2 - k]
-    law, done = ([], [], [], []), set()
-    for node, (nodes, own, n, gap, friction) in points.items():
+    law, done = ([], [], [], [], []), set()
+    for node, (nodes, own, n, gap, friction, slid) in points.items():
         if node not in free or node in done:
             continue
         n = n / np.hypot(*n)
         rows = [row_along(axis, nodes, own) for axis in (n, (-n[1], n[0]))]
         pair = {node}
         if node in across:
-            nodes, own, _, gap_beyond, _ = points[across[node]]
+            nodes, own, _, gap_beyond, _, slid_beyond = points[across[node]]
             rows = [row | row_along(axis, nodes, -own) for row, axis in zip(rows, (n, (-n[1], n[0])))]
             gap += gap_beyond
+            slid += slid_beyond
             pair.add(across[node])
         if any(of_pair in held for of_pair in pair & free):
             friction = 0
         done |= pair
-        for column, value in zip(law, (*rows, gap, friction)):
+        for column, value in zip(law, (*rows, gap, friction, slid)):
             column.append(value)
     return law

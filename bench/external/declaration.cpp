@@ -187,7 +187,8 @@ Declaration read_declaration(const std::filesystem::path& file) {
                {"print_precision", read_print_precision},
                {"allowed_penetration", read_allowed_penetration},
                {"weak_contact", flag_of_displacement(declaration.weak_contact)},
-               {"joins_bodies", flag_of_displacement(declaration.joins_bodies)}});
+               {"joins_bodies", flag_of_displacement(declaration.joins_bodies)},
+               {"load_steps", flag_of_displacement(declaration.load_steps)}});
   if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);
   return declaration;
 }

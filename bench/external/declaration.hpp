@@ -29,6 +29,7 @@
 //                    inner nodes next to Γ_C; contact forces are then asked for their sum
 //   joins_bodies     optional, of displacement: true if it takes bodies that press on each other
 //                    (contact_opposite)
+//   load_steps       optional, of displacement: true if it measures slip from slid_mm
 #pragma once
 
 #include <array>
@@ -62,7 +63,7 @@ struct Declaration {
   double first_tolerance = 0;
   double print_precision = 0;
   double allowed_penetration = 1e-3;
-  bool weak_contact = false, joins_bodies = false;
+  bool weak_contact = false, joins_bodies = false, load_steps = false;
 };
 
 // Excludes globs, lists and parts of paths, so that a user can select the name.

@@ -214,6 +214,7 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
   solution.displacement = displacement_of(problem, values);
   solution.stress = stress_of_displacement(problem, solution.displacement);
   solution.F_C = contact_reactions(problem, solution.stress);
+  solution.contact_displacement = displacement_at(control_points(problem), solution.displacement);
   return solution;
 }
 
@@ -364,6 +365,7 @@ Method external_method(const Declaration& declaration,
   if (declaration.returns != Declaration::Returns::contact_forces) {
     method.stages = {Stage::recover};
     method.joins_bodies = declaration.joins_bodies;
+    method.takes_load_steps = declaration.load_steps;
   }
   method.name = "EXTERNAL:" + declaration.name;
   method.family = method.name.substr(0, method.name.find(":" + declaration.parameter + "="));

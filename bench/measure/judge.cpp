@@ -63,6 +63,7 @@ JudgedStep Judge::judged(int step, const DualSystem& system, const Solution& sol
     // A zero stress from the program does not prove that the body has none.
     result.verification.unstressed =
         reference(1, step) != nullptr && reference(1, step)->stress.values().isZero(0);
+    result.displacement = solution.displacement;
   }
   return result;
 }

@@ -55,6 +55,8 @@ class Judge {
   // References belong to a degree of the stresses.
   const ReferencePath& references(int degree);
   const Reference* reference(int degree, int step = 0);  // null: references().missing says why
+  // Gives the references' answers, step by step; they must be there.
+  Solve references_one_by_one(int degree);
   std::string prefix_of(std::int64_t step) const {
     return problem_ ? step_prefix(step, *problem_) : "";
   }
@@ -76,7 +78,7 @@ class Judge {
                             const Solution& solution, Record& record);
   void note_discretisation(const Method& method, Record& record);
   // For an external program: its displacements, made admissible.
-  void note_error_of_displacement(const Solution& solution, Record& record);
+  void note_error_of_displacement(const std::vector<JudgedStep>& steps, Record& record);
   // A path with friction in twice as many steps; null without such a path or a reference.
   const Json* half_steps(int degree);
 

@@ -63,6 +63,12 @@ std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const Dua
 
 }  // namespace
 
+Solve Judge::references_one_by_one(int degree) {
+  return [this, degree, step = 0](const DualSystem&, const RunControl&) mutable {
+    return answer_of(*reference(degree, step++));
+  };
+}
+
 // Each step's system measures slip from the stresses' own past.
 std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, int degree) {
   const ActivityScope scope(board_, Activity::discretisation);
@@ -81,9 +87,7 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
                          own_u.push_back({answer.displacement, answer.free_motion_mm});
                      });
     if (std::ssize(own_u) < count_of_steps(*problem_)) return {};
-    solve = [this, degree, step = 0](const DualSystem&, const RunControl&) mutable {
-      return answer_of(*reference(degree, step++));
-    };
+    solve = references_one_by_one(degree);
   }
   Discretisation result;
   std::optional<ResultantLifts> lifts;
@@ -113,17 +117,26 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   return result;
 }
 
-void Judge::note_error_of_displacement(const Solution& solution, Record& record) {
+void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Record& record) {
   if (reference(1) == nullptr) {
     record.status = has_answer(record.status) ? Status::inaccurate : record.status;
     record.status_reason = "its error is not known: " + references(1).missing;
     return;
   }
-  const DualSystem system = assemble(problem_, Blocks::contact_points);
-  const auto& [stress, F_C] = std::tie(reference(1)->stress, reference(1)->F_C);
-  note(constitutive_error(system, stress, F_C,
-                          admissible_displacement(system, F_C, solution.displacement)),
-       "its own displacements", record);
+  if (std::ssize(steps) < count_of_steps(*problem_)) return;
+  ConstitutiveError error;
+  Json of_steps = Json::array();
+  DualSystem system = assemble(problem_, Blocks::contact_points);
+  solve_load_steps(references_one_by_one(1), system, {},
+                   [&](int step, const DualSystem& posed, const Solution& own) {
+                     const DisplacementField& u =
+                         steps[static_cast<std::size_t>(step)].displacement;
+                     error = constitutive_error(posed, own.stress, own.F_C,
+                                                admissible_displacement(posed, own.F_C, u));
+                     of_steps.push_back(shown(error));
+                   });
+  note(error, "its own displacements", record);
+  for (std::size_t k = 0; k < record.steps.size(); ++k) record.steps[k].update(of_steps[k]);
 }
 
 void Judge::note_discretisation(const Method& method, Record& record) {
@@ -175,7 +188,7 @@ bool ends_unloaded(const std::vector<JudgedStep>& steps) {
 void Judge::judge_discretisation(const Method& method, const std::vector<JudgedStep>& steps,
                                  const Solution& solution, Record& record) {
   if (method.in_displacements && solution.program)
-    note_error_of_displacement(solution, record);
+    note_error_of_displacement(steps, record);
   else
     note_discretisation(method, record);
   const Json* const halves = half_steps(method.degree);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "assembly/displacement_field.hpp"
 #include "bench/records/json.hpp"
 #include "bench/verify/reference.hpp"
 #include "bench/verify/verifier.hpp"
@@ -35,6 +36,7 @@ struct JudgedStep {
   // Set if the forces meet the law but are not the reference's: against the nearest solution.
   std::optional<Verification> as_other = {};
   double dissipation_Nmm = 0;
+  DisplacementField displacement = {};  // of an external program
 
   const Verification& seen() const { return as_other ? *as_other : verification; }
 };

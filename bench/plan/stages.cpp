@@ -32,9 +32,8 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
   if (!method.solve)
     return "the problem has a body: HYBRID condenses it, and solves the contact law";
   const bool external = !method.program.empty();
-  if (external && !body->later_steps.empty() && !method.condenses_contact())
-    return "a path of load steps: the next one begins where this one has slipped, which only the "
-           "condensed problem says (allowed: programs that read it)";
+  if (!body->later_steps.empty() && !method.takes_load_steps)
+    return "a path of load steps: its declaration does not say load_steps";
   if (external && method.condenses_contact() && mesh_sizes(body->mesh).contact_edges == 0)
     return "no contact boundary: nothing is left for the program";
   if (!body->opposite.empty() && !method.joins_bodies)

@@ -6,6 +6,7 @@
 #include <array>
 #include <iterator>
 
+#include "assembly/bernstein.hpp"
 #include "assembly/row_order.hpp"
 
 namespace airybench {
@@ -206,6 +207,17 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
          "other way; its gap_mm adds to this one's; -1: a wall",
          Eigen::MatrixXi(Eigen::Map<const Eigen::VectorXi>(
              problem.opposite.data(), static_cast<Eigen::Index>(problem.opposite.size())))});
+  if (const Eigen::MatrixXd& slid = problem.loads.slid_mm; slid.size() > 0) {
+    Eigen::MatrixXd at_points(rows, 3);
+    for (int row = 0; row < static_cast<int>(rows); ++row)
+      for (int k = 0; k < 3; ++k)
+        at_points(row, k) = bernstein_value(Eigen::VectorXd(slid.col(row)), k / 2.);
+    arrays.push_back(
+        {"slid_mm", "mm",
+         "per row of boundary: tangential displacement from which slip is measured, at "
+         "start, middle, end; those of a pair add up; without the array 0",
+         at_points});
+  }
   return arrays;
 }
 

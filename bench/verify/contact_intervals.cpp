@@ -30,8 +30,8 @@ std::vector<bool> moved_edges(const Problem& problem) {
   std::vector<int> rows;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
     if (mesh.boundary[row].role == BoundaryRole::contact) rows.push_back(row);
-  std::ranges::stable_partition(
-      rows, [&](int row) { return problem.opposite_of(row) == Problem::no_row; });
+  std::stable_partition(rows.begin(), rows.end(),
+                        [&](int row) { return problem.opposite_of(row) == Problem::no_row; });
   for (const int row : rows) {
     const Eigen::Vector2d normal = frame_of(mesh, rows.front()).normal,
                           own = frame_of(mesh, row).normal;

@@ -94,15 +94,11 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
   NodalForces balance = nodal_forces(problem, stress);
   balance.sum -= nodal_loads(problem, degree);
 
-  Eigen::VectorXd displacement(control.law.size());
+  const Eigen::VectorXd displacement = displacement_at(control, solution.displacement);
   for (int p = 0; p < control.law.count; ++p) {
     const Eigen::Matrix2d frame = control.frame(p);
     const int node = control.node[p];
-    for (int k = 0; k < m; ++k) {
-      const bool held = k == 1 && control.on_roller[p];
-      displacement(m * p + k) = held ? 0 : frame.col(k).dot(solution.displacement.col(node));
-      balance.sum.col(node) -= solution.F_C(m * p + k) * frame.col(k);
-    }
+    for (int k = 0; k < m; ++k) balance.sum.col(node) -= solution.F_C(m * p + k) * frame.col(k);
     if (m == 1 && solution.program && !control.on_roller[p]) {
       const Eigen::Vector2d t = frame.col(1);
       const double off = t.dot(balance.sum.col(node));

@@ -30,14 +30,14 @@ def problem_lines(problem):
     size = len(problem["vertices_mm"]) + len(problem["edges"])
     held = held_nodes(problem, sides)
     supports = [row_along(axis, [node], [1]) for node, (axes, _) in held.items() for axis in axes]
-    normal, tangential, gaps, friction = contact(problem, sides, held, True)
+    normal, tangential, gaps, friction, slid = contact(problem, sides, held, True)
     components = 2 if any(friction) else 1
     law = [row for pair in zip(normal, tangential) for row in pair[:components]]
     entries = [[(i, *entry) for i, row in enumerate(rows) for entry in row.items()] for rows in (supports, law)]
     return [*((of[0, 1], of[2, 2], *six) for of, six in zip(stiffness, nodes[:, [0, 1, 2, 4, 5, 3]])),
             loads(problem, np.arange(size), sides, 2 * size),
             (len(supports), len(entries[0])), *entries[0], [u for _, of_node in held.values() for u in of_node],
-            (len(gaps), components, len(entries[1])), *entries[1], *zip(gaps, friction)]
+            (len(gaps), components, len(entries[1])), *entries[1], *zip(gaps, friction, slid)]
 
 
 def write(file, lines):

@@ -65,20 +65,34 @@ def add_contact(model, size, normal_rows, tangential_rows, gaps, friction):
     model.add_basic_contact_brick("u", *names, "r", *rows, "gaps")
 
 
+def slid_displacements(rows, tangential_rows, slid, size):
+    """The least u of contact nodes that is slid along tangential_rows and 0 along rows."""
+    u = np.zeros(size)
+    columns = sorted({j for row in tangential_rows for j in row})
+    rows = [[row.get(j, 0) for j in columns] for row in (*tangential_rows, *rows) if not row.keys().isdisjoint(columns)]
+    u[columns] = np.linalg.lstsq(rows, [*slid, *np.zeros(len(rows) - len(slid))], rcond=None)[0]
+    return u
+
+
 def solve(problem, of_coefficients):
     mesh, elements, nodes, sides = finite_elements(problem)
     size = elements.nbdof()
     model = gf.Model("real")
     shear_modulus = add_elasticity(model, mesh, elements, problem)
-    model.add_explicit_rhs("u", loads(problem, nodes, sides, size))
     held = held_nodes(problem, sides)
     rows = [row_along(axis, [node], [1]) for node, (axes, _) in held.items() for axis in axes]
+    *law, slid = contact(problem, sides, held, of_coefficients)
+    right, earlier = loads(problem, nodes, sides, size), 0
+    if any(slid):  # GetFEM measures slip from u = 0, so u is what is added to this
+        earlier = slid_displacements([*law[0], *rows], law[1], slid, size)
+        model.assembly("build_matrix")
+        right -= model.tangent_matrix().mult(earlier)
+    model.add_explicit_rhs("u", right)
     values = [value for _, of_node in held.values() for value in of_node]
     if values:  # GetFEM refuses variables of no size
         model.add_variable("reactions", len(values))
         model.add_constraint_with_multipliers("u", "reactions", spmat(rows, size), values)
     model.add_initialized_data("r", [shear_modulus])
-    law = contact(problem, sides, held, of_coefficients)
     if law[0]:
         add_contact(model, size, *law)
     model.assembly("build_rhs")
@@ -92,7 +106,7 @@ def solve(problem, of_coefficients):
         steps += more
         if converged:
             break
-    return model.variable("u").reshape(-1, 2)[nodes], steps, converged
+    return (model.variable("u") + earlier).reshape(-1, 2)[nodes], steps, converged
 
 
 if __name__ == "__main__":

@@ -49,7 +49,8 @@ struct Method {
   // It solves another discrete problem, in displacements: its stresses do not balance and are not
   // those of the reference, so it is judged by the discretisation error alone.
   bool in_displacements = false;
-  bool joins_bodies = true;  // solves bodies that press on each other
+  bool joins_bodies = true;      // solves bodies that press on each other
+  bool takes_load_steps = true;  // measures slip from the step before (Loads::slid_mm)
   std::vector<Stage> stages = {Stage::order,   Stage::factor,  Stage::condense,
                                Stage::contact, Stage::recover, Stage::check};  // in order
   // Version of the external program, as it reports it (bench/external); empty: the method is ours.

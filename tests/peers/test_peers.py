@@ -188,13 +188,36 @@ class PeerTest(ExportingTest):
                                 -self.difference_from_p2() * p2["normal_resultant_N"])
         self.assertGreater(taken, 0)
 
+    def test_friction_remembers_earlier_load_steps_as_in_p2(self) -> None:
+        if not self.peer.get("load_steps"):
+            self.skipTest("it takes one load step")
+        back = {"load_steps": [{"displacement_mm": [0.02, -0.006]}, {"displacement_mm": [0.015, 0]}]}
+        two = json.loads((PROJECT / "docs/bodies/blocks.json").read_text(encoding="utf-8"))
+        two["load_steps"] = [{"boundary": {"displacement:top": {"displacement_mm": [x, -0.006]}}} for x in (-0.006, 0.002)]
+        for mesh, definition in (("Mesh0", back), (PROJECT / "docs/bodies/blocks.geo", two)):
+            with self.subTest(mesh):
+                p2, own = self.records_of(mesh, definition)
+                self.assertEqual(("ok", "ok"), (p2["status"], own["status"]), own["status_reason"])
+                self.assertEqual(3, len(own["steps"]))
+                self.assertGreater(p2["steps"][2]["dissipation_Nmm"], 1e-5)
+                for mine, of_p2 in zip(own["steps"], p2["steps"]):
+                    for quantity in ("normal_resultant_N", "tangential_resultant_N"):
+                        self.assertLess(abs(mine[quantity] - of_p2[quantity]),
+                                        -self.difference_from_p2() * of_p2["normal_resultant_N"])
+                    self.assertLess(abs(mine["dissipation_Nmm"] - of_p2["dissipation_Nmm"]),
+                                    20 * self.difference_from_p2() * p2["strain_energy_Nmm"])
+
     def records_of_joined(self, body: str, changes: dict) -> tuple[dict, dict]:
-        """Of P2, and of the peer's values the last, the stiffest."""
-        model, out = PROJECT / f"docs/bodies/{body}", tempfile.mkdtemp(dir=self.folder)
+        model = PROJECT / f"docs/bodies/{body}"
         definition = json.loads(model.with_suffix(".json").read_text(encoding="utf-8"))
         for key, value in changes.items():
             definition[key] = definition.get(key, {}) | value
-        ran = subprocess.run([BENCH, f"--mesh={model}.geo", f"--scene={self.scene(definition)}", "--method=P2,EXTERNAL:*",
+        return self.records_of(f"{model}.geo", definition)
+
+    def records_of(self, mesh: str | Path, definition: dict) -> tuple[dict, dict]:
+        """Of P2, and of the peer's values the last, the stiffest."""
+        out = tempfile.mkdtemp(dir=self.folder)
+        ran = subprocess.run([BENCH, f"--mesh={mesh}", f"--scene={self.scene(definition)}", "--method=P2,EXTERNAL:*",
                               f"--external={self.declaration}", "--repetitions=1", f"--out={out}"],
                              check=False, capture_output=True, text=True)
         records = Path(out, "records.jsonl")

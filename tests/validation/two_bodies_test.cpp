@@ -405,6 +405,13 @@ TEST(TwoBodies, WhatCannotBeIsRefusedInALine) {
     EXPECT_EQ(of_step(change),
               "default scene: load_steps: 1: contacts: contact:block and contact:base (allowed: "
               "clearance_mm, and no friction)");
+  EXPECT_EQ(complaint([](Scene& s) {
+              s.later_steps.resize(1);
+              s.later_steps[0].contacts.resize(
+                  2, {.between = s.contacts[0].between, .clearance_mm = 0.1});
+            }),
+            "default scene: load_steps: 1: contacts: between: contact:block and contact:base twice "
+            "(allowed: every pair once)");
   EXPECT_EQ(of_step([](ContactPair& pair) { pair.clearance_mm = NAN; }),
             "default scene: load_steps: 1: contacts: clearance_mm: nan (allowed: finite numbers)");
 }

@@ -353,6 +353,7 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
   refused_of_displacement("allowed_penetration", "1 %", 1, "above 0, up to 1");
   refused_of_displacement("weak_contact", 1, true, "true or false");
   refused_of_displacement("joins_bodies", "yes", true, "true or false");
+  refused_of_displacement("load_steps", 3, true, "true or false");
   for (const Json& parameter :
        {Json(1), Json({{"a", {1}}, {"b", {1}}}), Json({{"threads", {1}}}), Json({{"A", {1}}}),
         Json({{"a", Json::array()}}), Json({{"a", {1, 0}}}), Json({{"a", {"1"}}})})
