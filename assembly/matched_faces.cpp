@@ -37,6 +37,16 @@ void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
       }
 }
 
+// Of all load steps.
+double largest_interference_mm(const Scene& scene, const ContactPair& pair) {
+  double least = std::min(0.0, pair.clearance_mm.value_or(0));
+  for (const LoadStep& step : scene.later_steps)
+    for (const ContactPair& changed : step.contacts)
+      if (changed.between == pair.between)
+        least = std::min(least, changed.clearance_mm.value_or(0));
+  return -least;
+}
+
 class PairedEdges {
  public:
   PairedEdges(const Mesh& mesh, const ContactPair& pair, const Scene& scene,
@@ -102,8 +112,9 @@ class PairedEdges {
           (y - x).dot(normal) - to_curve(row, x, normal) - to_curve(other, y, Point(-normal));
       of_first.gap_mm[k] = gap;
       constexpr double most = 0.1;
-      if (gap < -most * size_mm)
-        refuse("contacts: " + names_of(pair_) + ": overlap by", shown(-gap) + " mm",
+      if (const double overlap = largest_interference_mm(scene_, pair_) - gap;
+          overlap > most * size_mm)
+        refuse("contacts: " + names_of(pair_) + ": overlap by", shown(overlap) + " mm",
                "at " + shown(x) + " (allowed: up to a tenth of the mesh's size, " +
                    shown(most * size_mm) + " mm)");
     }

@@ -40,7 +40,8 @@ struct MatchedFaces {
 
 // Takes a valid mesh. Throws TransformError, "contacts: …": a label that is no contact group, or
 // given twice; faces that do not face each other, or that overlap by more than a tenth of the
-// mesh's size; a pair on one piece of the mesh; a vertex in two pairs, or in one and at a wall.
+// mesh's size in a load step; a pair on one piece of the mesh; a vertex in two pairs, or in one and
+// at a wall.
 MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene);
 
 }  // namespace airybench

@@ -168,6 +168,7 @@ Mesh transformed(Mesh mesh, const MeshTransform& transform) {
   keep_middle(mesh, contact, transform.keep_contact_edges, force);
   keep_middle(mesh, displacement, transform.keep_displacement_edges, force);
   keep_middle(mesh, force, transform.keep_force_edges, displacement);
+  if (transform.keep_contact_edges == 0) check_after(mesh, "keep_contact_edges", 0);
   return mesh;
 }
 

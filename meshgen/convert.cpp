@@ -73,15 +73,18 @@ void check_curves(const PlaneModel& model) {
   }
 }
 
+// By a displacement, or by contact alone, unless there are names that may have meant one.
 void check_is_held(const PlaneModel& model) {
   std::set<std::string> others;
+  bool in_contact = false;
   for (const ModelCurve& curve : model.curves) {
-    if (!curve.sides.empty() &&
-        parse_boundary_label(curve.label)->role == BoundaryRole::displacement)
-      return;
+    const BoundaryRole role = parse_boundary_label(curve.label)->role;
+    if (!curve.sides.empty() && role == BoundaryRole::displacement) return;
+    in_contact |= !curve.sides.empty() && role == BoundaryRole::contact;
     for (const std::string& name : curve.names)
       if (!parse_boundary_label(name)) others.insert("'" + name + "'");
   }
+  if (in_contact && others.empty()) return;
   fail(fmt::format(
       "no edges in a physical curve named displacement{}; --role=NUMBER=displacement "
       "holds one of its curves:\n{}",

@@ -161,7 +161,8 @@ void note_missing_roles(const Json& boundary, const std::string& name) {
         "note: {}: no curve has the role {}: {} (--role=CURVE={} next to --new-scene gives it)\n",
         name, word, meaning, word);
   };
-  note(BoundaryRole::displacement, "it is held nowhere");
+  note(BoundaryRole::displacement,
+       there.contains(BoundaryRole::contact) ? "contact alone holds it" : "it is held nowhere");
   note(BoundaryRole::contact, "it touches nothing");
 }
 

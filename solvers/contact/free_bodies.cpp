@@ -23,7 +23,7 @@ struct Unbalanced {
 };
 
 // Of the body with the largest unbalanced load.
-[[noreturn]] void throw_not_held(const FreeBodies& free, const Unbalanced& left) {
+[[noreturn]] void throw_not_held(const FreeBodies& free, const Unbalanced& left, double not_held) {
   Eigen::Index worst = 0;
   left.loads.cwiseAbs().maxCoeff(&worst);
   Eigen::Vector2d resultant = Eigen::Vector2d::Zero();
@@ -31,13 +31,14 @@ struct Unbalanced {
     if (free.bodies[m] == free.bodies[worst]) resultant += left.loads(m) * free.along[m];
   std::ostringstream line;
   line.precision(3);
+  const char* const what = left.relative > not_held ? "nothing" : "hardly anything";
   const auto tidy = [](double x) { return std::abs(x) < 1e-6 ? 0 : x; };
   if (free.along[worst].isZero(0)) {
-    line << "nothing keeps " << free.bodies[worst] << " from turning: contact leaves "
+    line << what << " keeps " << free.bodies[worst] << " from turning: contact leaves "
          << std::abs(left.loads(worst)) << " N of the loads at its rim";
   } else {
     const Eigen::Vector2d along = resultant.normalized();
-    line << "nothing holds " << free.bodies[worst] << " along (" << tidy(along.x()) << ", "
+    line << what << " holds " << free.bodies[worst] << " along (" << tidy(along.x()) << ", "
          << tidy(along.y()) << "): contact leaves " << resultant.norm() << " N of the loads";
   }
   throw Breakdown(line.str());
@@ -84,8 +85,7 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
   for (; m > least; m /= 100) solve_held(m);
   from_here.acceptable = options.acceptable;
   const Unbalanced left = solve_held(0);
-  if (left.relative > not_held) throw_not_held(free, left);
-  result.converged &= left.relative <= enough;
+  if (result.converged && left.relative > enough) throw_not_held(free, left, not_held);
   result.free_motion_mm = std::move(a);
   return result;
 }

@@ -102,6 +102,16 @@ TEST_F(Convert, GeometryOfTwoBodiesIsMeshed) {
   }
 }
 
+// A curve that is named like no role may have been meant to hold it.
+TEST_F(Convert, ContactAloneMayHoldABody) {
+  const std::string on_a_wall = replaced(roles, "\"displacement\"", "\"force:top\""),
+                    bolted = replaced(roles, "\"displacement\"", "\"bolt\"");
+  EXPECT_EQ(complaint("wall.geo", two_squares_geometry + on_a_wall + bodies), "no complaint");
+  EXPECT_TRUE(complaint("bolt.geo", two_squares_geometry + bolted + bodies)
+                  .starts_with("no edges in a physical curve named displacement (others found: "
+                               "'bolt'; --role gives them one); "));
+}
+
 TEST_F(Convert, MeshSizesOfTheGeometryAreKept) {
   const std::string coarse = two_squares_geometry + roles + bodies;
   const std::size_t before = convert("coarse.geo", coarse).vertices.size();

@@ -302,6 +302,37 @@ TEST(FreeBodies, OneMayLieOnAWallAlone) {
   }
 }
 
+// A contact law that is not solved yet says nothing of what holds a body; a load that friction does
+// not take is named, however small.
+TEST(FreeBodies, OnlyASolvedContactLawTellsThatNothingHolds) {
+  Mesh block;
+  block.name = "block";
+  add_block(block, "block", {0, 0}, {12, 5}, 10, 4, {"contact", "force", "force:top", "force"});
+  Scene scene;
+  scene.wall = FlatWall{{0, 0}, {0, 1}};
+  scene.friction = 0;
+  const auto solved = [&](double along, const ContactOptions& contact) {
+    scene.boundary["force:top"].traction_MPa = everywhere({along, -10});
+    const Method hybrid = select_methods("HYBRID").front();
+    DualSystem system = assemble(testing::posed(scene, block), hybrid.blocks, hybrid.degree);
+    RunControl control;
+    control.contact = contact;
+    return solve_load_case(hybrid.solve, system, control);
+  };
+  ContactOptions one_sweep;
+  one_sweep.solver = ContactSolver::gauss_seidel;
+  one_sweep.most_iterations = 1;
+  const Solution early = solved(0, one_sweep);
+  EXPECT_EQ(early.status, Status::not_converged) << early.message;
+  for (const auto& [along, what] : {std::pair(1e-7, "hardly anything"), {1e-2, "nothing"}}) {
+    const Solution pushed = solved(along, {});
+    EXPECT_EQ(pushed.status, Status::breakdown);
+    EXPECT_TRUE(pushed.message.starts_with(std::string(what) + " holds ")) << pushed.message;
+    EXPECT_NE(pushed.message.find(" along (1, 0): contact leaves "), std::string::npos)
+        << pushed.message;
+  }
+}
+
 std::string why_not(const Scene& scene, const Mesh& mesh, const char* name) {
   const Method method = select_methods(name).front();
   DualSystem system = assemble(testing::posed(scene, mesh), method.blocks, method.degree);

@@ -390,6 +390,19 @@ TEST(TwoBodies, WhatCannotBeIsRefusedInALine) {
             "default scene: boundary: contact:base: friction of a group in contacts (allowed: "
             "face; friction "
             "and clearance_mm of the pair)");
+  EXPECT_EQ(complaint([](Scene& s) {
+              s.later_steps.resize(1);
+              s.later_steps[0].boundary["contact:base"].contact.clearance_mm = 0.1;
+            }),
+            "default scene: load_steps: 1: boundary: contact:base: clearance_mm of a group in "
+            "contacts (allowed: clearance_mm of the pair, in contacts)");
+  EXPECT_TRUE(
+      complaint([](Scene& s) {
+        s.later_steps.resize(1);
+        s.later_steps[0].contacts = {{.between = s.contacts[0].between, .clearance_mm = -2}};
+      })
+          .starts_with("default scene: contacts: contact:block and contact:base: overlap by: "
+                       "2 mm at [0, 0] (allowed: up to a tenth of the mesh's size, "));
   const auto of_step = [&](const auto& change) {
     return complaint([&](Scene& s) {
       s.later_steps.resize(1);

@@ -216,7 +216,7 @@ TEST_F(ModelRuns, ANewSceneGivesNamesTheRoleThatTheyMayMean) {
   const testing::CommandResult result = run("--new-scene=shoe.geo");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err,
-            "note: shoe.json: no curve has the role displacement: it is held nowhere "
+            "note: shoe.json: no curve has the role displacement: contact alone holds it "
             "(--role=CURVE=displacement next to --new-scene gives it)\n");
   const Json scene = Json::parse(bench_.content("shoe.json"));
   EXPECT_EQ(scene["roles"], Json({{"Contact_sole", "contact:sole"}, {"top", "force:top"}}))
