@@ -144,10 +144,10 @@ Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementF
   return of_points;
 }
 
-Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress) {
-  const int degree = stress.degree() + 1;
-  const ControlPoints points = control_points(problem, degree);
-  const Eigen::Matrix2Xd force = nodal_forces(problem, stress).sum - nodal_loads(problem, degree);
+Eigen::VectorXd contact_reactions(const Problem& problem, const ControlPoints& points,
+                                  const StressField& stress) {
+  const Eigen::Matrix2Xd force =
+      nodal_forces(problem, stress).sum - nodal_loads(problem, stress.degree() + 1);
   const int m = points.law.components;
   Eigen::VectorXd F(points.law.size());
   for (int p = 0; p < points.law.count; ++p) {

@@ -39,6 +39,7 @@ Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementF
 
 // Contact forces of displacements at their control points: nodal forces of their stresses, of one
 // degree less, without the loads, N. Per point normal, tangential (μ = 0: normal).
-Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress);
+Eigen::VectorXd contact_reactions(const Problem& problem, const ControlPoints& points,
+                                  const StressField& stress);
 
 }  // namespace airybench

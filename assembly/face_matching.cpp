@@ -161,8 +161,7 @@ class Matcher {
     std::set<int> taken;
     for (const Near& both : near) {
       if (twin.contains(both.first) || taken.contains(both.second)) continue;
-      const std::array<std::vector<int>, 2> rows = {at[0].at(both.first), at[1].at(both.second)};
-      if (!is_together(both, shortest(rows[0])) && !move(both, rows)) continue;
+      if (!is_together(both, shortest(at[0].at(both.first))) && !move(both, at)) continue;
       twin[both.first] = both.second;
       taken.insert(both.second);
     }
@@ -171,12 +170,12 @@ class Matcher {
   static bool is_together(const Near& both, double edge_mm) {
     return both.distance <= 1e-9 * edge_mm;
   }
-  bool move(const Near& both, const std::array<std::vector<int>, 2>& rows) {
+  bool move(const Near& both, const std::array<RowsAt, 2>& at) {
     if (!face_[1].fixed.contains(both.second))
-      if (const std::optional<Hit> hit = beside(0, both.first, rows[1]))
+      if (const std::optional<Hit> hit = beside(0, both.first, at[1].at(both.second)))
         return move_along(1, both.second, *hit);
     if (!face_[0].fixed.contains(both.first))
-      if (const std::optional<Hit> hit = beside(1, both.second, rows[0]))
+      if (const std::optional<Hit> hit = beside(1, both.second, at[0].at(both.first)))
         return move_along(0, both.first, *hit);
     return false;
   }

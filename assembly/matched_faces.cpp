@@ -20,6 +20,8 @@ double diagonal_mm(const Mesh& mesh) {
   return std::hypot(extent.width_mm, extent.height_mm);
 }
 
+std::string place_of(const ContactPair& pair) { return "contacts: " + names_of(pair); }
+
 void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
   std::set<std::string> groups, paired;
   for (const BoundaryEdge& edge : mesh.boundary)
@@ -51,7 +53,11 @@ class PairedEdges {
  public:
   PairedEdges(const Mesh& mesh, const ContactPair& pair, const Scene& scene,
               const FaceMatching& matching)
-      : mesh_(mesh), pair_(pair), scene_(scene), matching_(matching) {}
+      : mesh_(mesh),
+        pair_(pair),
+        scene_(scene),
+        matching_(matching),
+        interference_mm_(largest_interference_mm(scene, pair)) {}
 
   // Sets the edges of both groups; returns how many pairs there are.
   int put_into(std::vector<std::optional<MatchedEdge>>& edges, double size_mm) const {
@@ -112,9 +118,8 @@ class PairedEdges {
           (y - x).dot(normal) - to_curve(row, x, normal) - to_curve(other, y, Point(-normal));
       of_first.gap_mm[k] = gap;
       constexpr double most = 0.1;
-      if (const double overlap = largest_interference_mm(scene_, pair_) - gap;
-          overlap > most * size_mm)
-        refuse("contacts: " + names_of(pair_) + ": overlap by", shown(overlap) + " mm",
+      if (const double overlap = interference_mm_ - gap; overlap > most * size_mm)
+        refuse(place_of(pair_) + ": overlap by", shown(overlap) + " mm",
                "at " + shown(x) + " (allowed: up to a tenth of the mesh's size, " +
                    shown(most * size_mm) + " mm)");
     }
@@ -126,6 +131,7 @@ class PairedEdges {
   const ContactPair& pair_;
   const Scene& scene_;
   const FaceMatching& matching_;
+  double interference_mm_;
 };
 
 void check_two_pieces(const Mesh& mesh, const ContactPair& pair,
@@ -136,7 +142,7 @@ void check_two_pieces(const Mesh& mesh, const ContactPair& pair,
     for (const auto& [v, n] : faces[side].normal) of[side].insert(pieces.of_vertex[v]);
   for (const int piece : of[0])
     if (of[1].contains(piece))
-      refuse("contacts: " + names_of(pair), "are on one body",
+      refuse(place_of(pair), "are on one body",
              "of the mesh " + mesh.name + " (allowed: groups of different bodies)");
 }
 
@@ -148,7 +154,7 @@ void check_apart(const Mesh& mesh, const ContactPair& pair,
     if (edge.role != BoundaryRole::contact || pair.has(label)) continue;
     for (const int v : edge.vertices)
       if (faces[0].normal.contains(v) || faces[1].normal.contains(v))
-        refuse("contacts: " + names_of(pair), "meet " + label,
+        refuse(place_of(pair), "meet " + label,
                "at the vertex " + shown(mesh.vertices[v]) +
                    " (allowed: pairs that share no vertex with other contact groups)");
   }
@@ -173,7 +179,7 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
     result.edges.resize(changed.boundary.size());
     const int count = PairedEdges(changed, pair, scene, matching).put_into(result.edges, size_mm);
     if (count == 0)
-      throw TransformError("contacts: " + names_of(pair) +
+      throw TransformError(place_of(pair) +
                            " do not face each other (allowed: groups whose outward normals point "
                            "at each other)");
     result.changes.inserted += matching.changes.inserted;

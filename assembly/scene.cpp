@@ -268,11 +268,10 @@ void check_steps(const Scene& scene) {
     check_loads(scene, step_prefix(k), step.boundary, step.clearance_mm.value_or(0),
                 step.displacement_mm.value_or(Eigen::Vector2d::Zero()),
                 step.body_force_N_per_mm3.value_or(Eigen::Vector2d::Zero()));
-    for (const auto& [label, values] : step.boundary)
+    for (const auto& [label, values] : step.boundary) {
       if (values.contact.clearance_mm && is_paired(scene, label))
         fail(scene, step_prefix(k) + "boundary: " + label, "clearance_mm",
              "of a group in contacts (allowed: clearance_mm of the pair, in contacts)");
-    for (const auto& [label, values] : step.boundary)
       for (const auto& [key, is_given] : {std::pair("support", values.support.has_value()),
                                           {"friction", values.contact.friction.has_value()},
                                           {"wall", values.contact.wall.has_value()},
@@ -280,6 +279,7 @@ void check_steps(const Scene& scene) {
         if (is_given)
           fail(scene, step_prefix(k) + "boundary: " + label, key,
                "(allowed: traction_MPa, pressure_MPa, displacement_mm, clearance_mm)");
+    }
     check_contacts_of_step(scene, k);
   }
 }

@@ -213,8 +213,9 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
   const StageTimer timer(solution.times, Stage::recover);
   solution.displacement = displacement_of(problem, values);
   solution.stress = stress_of_displacement(problem, solution.displacement);
-  solution.F_C = contact_reactions(problem, solution.stress);
-  solution.contact_displacement = displacement_at(control_points(problem), solution.displacement);
+  const ControlPoints points = control_points(problem);
+  solution.F_C = contact_reactions(problem, points, solution.stress);
+  solution.contact_displacement = displacement_at(points, solution.displacement);
   return solution;
 }
 

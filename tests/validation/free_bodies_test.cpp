@@ -256,12 +256,17 @@ TEST(FreeBodies, BoundsHoldAndClose) {
   EXPECT_LT(upper - lower, 0.05 * std::abs(upper));
 }
 
+// Labels: below, right, above and left.
+Mesh lone_block(const testing::Sides& sides) {
+  Mesh mesh;
+  mesh.name = "block";
+  add_block(mesh, "block", {0, 0}, {12, 5}, 10, 4, sides);
+  return mesh;
+}
+
 // Parallel rollers leave one motion, and the wall takes it.
 TEST(FreeBodies, AWallHoldsWhatRollersLeaveFree) {
-  Mesh block;
-  block.name = "block";
-  add_block(block, "block", {0, 0}, {12, 5}, 10, 4,
-            {"contact", "force", "force:top", "displacement"});
+  const Mesh block = lone_block({"contact", "force", "force:top", "displacement"});
   Scene scene;
   scene.wall = FlatWall{{0, 0}, {0, 1}};
   scene.displacement_mm = {0, 0};
@@ -279,9 +284,7 @@ TEST(FreeBodies, AWallHoldsWhatRollersLeaveFree) {
 
 // No displacement is prescribed anywhere: a wall and friction carry pressure and shear.
 TEST(FreeBodies, OneMayLieOnAWallAlone) {
-  Mesh block;
-  block.name = "block";
-  add_block(block, "block", {0, 0}, {12, 5}, 10, 4, {"contact", "force", "force:top", "force"});
+  const Mesh block = lone_block({"contact", "force", "force:top", "force"});
   validate(block);
   Scene scene;
   scene.wall = FlatWall{{0, 0}, {0, 1}};
@@ -305,9 +308,7 @@ TEST(FreeBodies, OneMayLieOnAWallAlone) {
 // A contact law that is not solved yet says nothing of what holds a body; a load that friction does
 // not take is named, however small.
 TEST(FreeBodies, OnlyASolvedContactLawTellsThatNothingHolds) {
-  Mesh block;
-  block.name = "block";
-  add_block(block, "block", {0, 0}, {12, 5}, 10, 4, {"contact", "force", "force:top", "force"});
+  const Mesh block = lone_block({"contact", "force", "force:top", "force"});
   Scene scene;
   scene.wall = FlatWall{{0, 0}, {0, 1}};
   scene.friction = 0;
@@ -389,10 +390,7 @@ TEST(FreeBodies, APathIsWalkedInSteps) {
 }
 
 TEST(FreeBodies, OneThatIsInContactAllAroundIsRefused) {
-  Mesh block;
-  block.name = "block";
-  add_block(block, "block", {0, 0}, {12, 5}, 10, 4,
-            {"contact", "contact", "contact", "displacement"});
+  const Mesh block = lone_block({"contact", "contact", "contact", "displacement"});
   Scene scene;
   scene.wall = PolylineWall{{{0, 0}, {12, 0}, {12, 5}, {0, 5}}};
   scene.boundary["displacement"].support = BoundaryValues::Support::normal;

@@ -274,7 +274,7 @@ TEST(DisplacementVerifier, LeavesAProgramTheDirectionOfTheForceInACornerOfTwoWal
       solution.displacement.col(node) = gradient * at;
     }
     solution.stress = stress_of_displacement(*problem, solution.displacement);
-    solution.F_C = contact_reactions(*problem, solution.stress);
+    solution.F_C = contact_reactions(*problem, control_points(*problem), solution.stress);
     if (is_of_program) solution.program.emplace();
     return *verify_displacement(system, solution).equilibrium_residual;
   };
