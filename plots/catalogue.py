@@ -42,7 +42,7 @@ FAMILIES = {"SYMMLQ": ("#0072B2", "o"), "3STEPCG": ("#8A3FA0", "s", (0, (5, 1.5)
 OF_DEGREE = {"HYBRID": (("#5B2A86", "o"), ("#B0307A", "s"), ("#E8743B", "^")),
              "P2": (("#8A5A00", "D"), ("#573300", "*"))}
 FAMILIES |= dict(zip(("P3", "P4"), OF_DEGREE["P2"]))
-COLOURS = ("#B0307A", "#7B4B1E", "#6B8E00", "#4B4BC8", "#777777")
+COLOURS = ("#008B9E", "#7B4B1E", "#6B8E00", "#4B4BC8", "#777777")
 MARKERS = ("v", ">", "p", "h", "d", "H", "8")  # not as many as colours, so that pairs differ
 
 # Of Figs 4 and 5, which do without colour: a marker per method, the first of its family that is

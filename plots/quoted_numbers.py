@@ -21,7 +21,9 @@ to nearest, to as many significant digits as are written.
 A line `EXPRESSION is NUMBER`, `is below NUMBER` or `is above NUMBER` is a condition for words
 next to the numbers, such as "less than": the phrase has no {} for it.
 
-Tables stand between <!-- table FOLDER: MESHES / METHODS --> and <!-- end of table -->.
+Tables stand between <!-- table FOLDER: MESHES / METHODS --> and <!-- end of table -->: as bench prints
+them, or, with `/ KEY,KEY` before -->, these values of a method per row and a mesh per column; in
+italics where the case is not ok, a dash where there is none.
 """
 import argparse
 import re
@@ -46,7 +48,7 @@ PROJECT = Path(__file__).resolve().parent.parent
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 NUMBER = r"\d{1,3}(?: \d{3})+|\d+(?:\.\d+)?(?:e[+-]?\d+)?|" + "|".join(rf"\b{w}\b" for w in WORDS)
 CONDITION = re.compile(r"(?P<expression>.+) is (?P<relation>below |above |)(?P<number>\S+)")
-TABLE = re.compile(r"(?P<head><!-- table (?P<folder>[\w/-]+): (?P<mesh>\S+) / (?P<method>\S+) -->\n)"
+TABLE = re.compile(r"(?P<head><!-- table (?P<folder>[\w/-]+): (?P<mesh>\S+) / (?P<method>\S+)(?: / (?P<keys>\S+))? -->\n)"
                    r"(?P<body>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
 UNITS = {None: 1, "%": 0.01, "ms": 1e-3, "min": 60, "h": 3600, "days": 86400, "MiB": 2**20,
          "GiB": 2**30}
@@ -261,6 +263,22 @@ def cells_of(row: Row) -> tuple[str, ...]:
             number(row.error_stress, ".1e"), number(row.error_force, ".1e"), row.status)
 
 
+def in_words(key: str, value: float | None) -> str:
+    if value is None:
+        return "—"
+    return seconds(value) if key.endswith("_s") else f"{100 * value:.2g} %" if key.startswith("error") else f"{value:.3g}"
+
+
+def table_by_mesh(rows: list[Row], keys: list[str]) -> str:
+    meshes = list(dict.fromkeys(row.mesh for row in rows))
+    lines = [["", *meshes], ["---"] * (len(meshes) + 1)]
+    for method, own in grouped(rows, lambda row: row.method).items():
+        cells = {row.mesh: ", ".join(in_words(key, value_of_row(row, key)) for key in keys) for row in own}
+        cells |= {row.mesh: f"*{cells[row.mesh]}*" for row in own if row.status != "ok"}
+        lines.append([method.removeprefix("EXTERNAL:"), *(cells.get(mesh, "—") for mesh in meshes)])
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
 def table(rows: list[Row]) -> str:
     """As `bench` prints it (support/text_table.cpp), a line of dots between meshes."""
     cells = [HEADS, *map(cells_of, rows)]
@@ -279,13 +297,16 @@ def differing_tables(file: str, text: str, runs: Runs) -> Iterator[Difference]:
     if len(tables) != text.count("<!-- table"):
         raise QuoteError(f"{file}: {text.count('<!-- table')} comments begin a table, "
                          f"{len(tables)} of them can be read; expected <!-- table FOLDER: MESHES / "
-                         "METHODS --> and <!-- end of table -->")
+                         "METHODS --> or ... / METHODS / KEYS -->, and <!-- end of table -->")
     for match in tables:
         cases = runs.of(match["folder"])
+        keys = match["keys"].split(",") if match["keys"] else []
+        for key in filter(lambda key: key not in KEYS, keys):
+            raise QuoteError(f"{file}: {match['head'].strip()}: no column {key}")
         rows = [row for mesh in match["mesh"].split("|") for method in match["method"].split("|")
                 for row in rows_of(chosen(cases, mesh=mesh, method=method, stop="target"))
-                if row.completed]
-        right = table(rows)
+                if row.completed or keys]
+        right = table_by_mesh(rows, keys) if keys else table(rows)
         if match["body"] != right:
             before, after = match["body"].splitlines(), right.splitlines()
             # Reports the first line that differs, not the whole table.

@@ -172,8 +172,8 @@ class Case:
 
     @property
     def label(self) -> str:
-        """HYBRID:k=2 -> 'HYBRID, degree 2'."""
-        return re.sub(r":k=(\d+)", r", degree \1", self.method)
+        """HYBRID:k=2 -> 'HYBRID, degree 2', EXTERNAL:mine -> 'mine'."""
+        return re.sub(r":k=(\d+)", r", degree \1", self.method.removeprefix("EXTERNAL:"))
 
     def status_words(self) -> str:
         """'timeout, 12 % done'."""

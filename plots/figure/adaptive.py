@@ -60,6 +60,12 @@ def loops_in(rows: list[Row]) -> dict[str, list[Row]]:
     return {method: solved_by(method, own) for method, own in adapted.items()}
 
 
+def name_among(rows: list[Row], row: Row) -> str:
+    """Of its line; with its degree where others of its family have a higher one."""
+    highest = max((other.degree for other in rows if other.family == row.family), default=1)
+    return row.label + ", degree 1" * (row.degree == 1 < highest)
+
+
 def kinds_in(rows: list[Row]) -> str:
     kinds = {kind_of(row) for row in rows}
     return ", ".join(f"{kind} ({look})" for kind, look in LOOKS.items() if kind in kinds)
@@ -137,12 +143,11 @@ def draw_times(axes: Axes, rows: list[Row]) -> None:
 def draw_over_time(axes: Axes, rows: list[Row], time: Callable[[Row], float | None]) -> Labels:
     """Total errors, a line per method and kind of mesh; a method is named once. Names are still to be drawn."""
     labels, named = Labels(axes), set()
-    higher = {row.family for row in rows if row.degree > 1}
     lines = grouped(sorted(filter(time, rows), key=lambda row: (kind_of(row) != "adapted", order(row), row.n_phi)),
                     lambda row: (row.method, kind_of(row), kind_of(row) == "adapted" and adapting(row)))
     for own in lines.values():
         first, look = own[0], own[0].look
-        words = first.label + ", degree 1" * (first.degree == 1 and first.family in higher)
+        words = name_among(rows, first)
         labels.line("" if words in named else words, list(map(time, own)),
                     [row.error_total for row in own], look.colour, **style(first, look.marker, look.colour))
         named.add(words)

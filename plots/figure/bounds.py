@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from matplotlib.figure import Figure
 
 from drawing import PAGE_WIDTH, Drawing, log_axis, log_limits, log_log, panel_at, sheet
-from figure.adaptive import kinds_in
+from figure.adaptive import kinds_in, name_among
 from labels import Labels
 from records import Row
 from selection import by_method, grouped, line_of
@@ -59,7 +59,7 @@ def draw(rows: list[Row]) -> Figure:
         left.fill_between(n, low, high, color=look.colour, alpha=0.25, linewidth=0)
         for bound in (low, high):
             left.plot(n, bound, color=look.colour, marker=look.marker, markersize=4, linewidth=1)
-        labels.line(line[0].label, n, [gap_of(row) for row in line], look.colour, marker=look.marker,
+        labels.line(name_among(rows, line[0]), n, [gap_of(row) for row in line], look.colour, marker=look.marker,
                     markersize=5, linewidth=1.2)
     labels.name_lines(weight="bold")
     return figure

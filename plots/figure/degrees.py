@@ -57,7 +57,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
     others = [panel for panel in grouped(run, panel_of) if panel not in panels]
     rows_of_panels = math.ceil(len(panels) / IN_ROW)
     figure = sheet(
-        TOP + rows_of_panels * (HEIGHT + BETWEEN) - BETWEEN + 0.45, "Total error over time, by degree",
+        TOP + rows_of_panels * (HEIGHT + BETWEEN) - BETWEEN + 0.45, "Total error against time, by degree",
         f"Total error of the stresses, mesh and method together; {threads(rows)}. Meshes: {kinds_in(rows)}. "
         "Time: one solve; on adapted meshes the whole loop, all levels and error estimates, and the solve of a "
         "method that did not adapt them.",

@@ -1,4 +1,4 @@
-"""Total error over time along another program's own parameter: what the wrong value costs."""
+"""Total error against time along another program's own parameter: what the wrong value costs."""
 import math
 import re
 from collections.abc import Iterator
@@ -101,5 +101,5 @@ def draw_panel(axes: Axes, rows: list[Row]) -> None:
                       markerfacecolor=colour if row.status == "ok" else "white", zorder=4)
     for own in sweeps_of(rows).values():
         for row in own:
-            labels.add(f"{value_of(row):g}", row.time_s, error_of(row), fontsize=7)
+            labels.add(f"{value_of(row):g}", row.time_s, error_of(row), fontsize=7, color=row.look.colour)
     labels.name_lines(weight="bold")

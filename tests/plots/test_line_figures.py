@@ -226,7 +226,7 @@ class DegreesTest(unittest.TestCase):
                 + self.levels("Mesh0", "default", {"P3": 2, "EXTERNAL:mine": 1})
                 + [made_up.case(mesh, "HYBRID", error_total=0.2, time_s=0.01) for mesh in ("Mesh0", "Mesh1")])
         words = drawn.words_of(drawn.plan(made_up.read(rows), "degrees").figure())
-        for name in ("P3", "EXTERNAL:mine", "HYBRID, degree 1", "Meshes: as they are (open, dashed)"):
+        for name in ("P3", "mine", "HYBRID, degree 1", "Meshes: as they are (open, dashed)"):
             self.assertEqual(words.count(name), 1, name)
 
     def test_meshes_of_another_degrees_loop_have_its_time_and_are_left_out(self) -> None:
