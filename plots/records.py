@@ -124,7 +124,7 @@ KINDS = (
     (TEXT, "preconditioner program status_reason parameters scene_group knob"),
     (FLAG, "iterative in_paper in_displacements precision_reached noisy tuning_cut "
            "memory_counts_differ"),
-    (COUNT, "n_phi n_f n_c threads repetitions load_steps noise_attempts adapt_level"),
+    (COUNT, "n_phi n_f n_c threads repetitions load_steps noise_attempts adapt_level n_stick n_slip"),
     (DEGREE, "degree"),  # of the stresses; those of P2 have degree 1, of P3 degree 2
     (POSITIVE, "area_mm2 width_mm height_mm time_s noise_kernel_s busy_kernel_s peak_heap_bytes "
                "peak_rss_bytes extrapolated_time_s target_error adapt_time_s"),

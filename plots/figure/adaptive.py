@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from drawing import Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
-from marks import WIDTH
+from marks import CROSS, WIDTH
 from records import Row
 from selection import (by_body, by_mesh, exponent, grouped, is_paper_stop, kind_of, line_of,
                        of_scene, order)
@@ -66,9 +66,17 @@ def name_among(rows: list[Row], row: Row) -> str:
     return row.label + ", degree 1" * (row.degree == 1 < highest)
 
 
+def is_crossed(row: Row) -> bool:
+    return row.status != "ok"
+
+
 def kinds_in(rows: list[Row]) -> str:
     kinds = {kind_of(row) for row in rows}
     return ", ".join(f"{kind} ({look})" for kind, look in LOOKS.items() if kind in kinds)
+
+
+def words_of_crosses(rows: list[Row]) -> str:
+    return "Crossed: not ok. " * any(map(is_crossed, rows))
 
 
 def words_of_loops(rows: list[Row]) -> str:
@@ -89,7 +97,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
         TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes",
         f"Scene {rows[0].scene}. Total error, discretisation and method together. Meshes: "
         f"{kinds_in(every)}. Below: the time of one solve on the mesh; red: of the whole adaptive loop, "
-        f"all levels and estimates of the error. {words_of_loops(every)}"
+        f"all levels and estimates of the error. {words_of_loops(every)}{words_of_crosses(every)}"
         "N^p: power law by least squares of logarithms, of adapted meshes with at least 1.5 times "
         f"the first one's unknowns. {threads(rows)}.", left_out(run, every, why), width=WIDTH)
     times = [t for row in every for t in (row.time_s, row.adapt_time_s) if t]
@@ -150,5 +158,7 @@ def draw_over_time(axes: Axes, rows: list[Row], time: Callable[[Row], float | No
         words = name_among(rows, first)
         labels.line("" if words in named else words, list(map(time, own)),
                     [row.error_total for row in own], look.colour, **style(first, look.marker, look.colour))
+        for row in filter(is_crossed, own):
+            axes.plot(time(row), row.error_total, **CROSS, zorder=6)
         named.add(words)
     return labels

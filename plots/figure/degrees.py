@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from matplotlib.figure import Figure
 
 from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
-from figure.adaptive import adapting, draw_over_time, kinds_in
+from figure.adaptive import adapting, draw_over_time, kinds_in, words_of_crosses
 from records import Row
 from selection import grouped, kind_of
 from words import CASE, csv_of, left_out, plain, threads
@@ -59,6 +59,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
     figure = sheet(
         TOP + rows_of_panels * (HEIGHT + BETWEEN) - BETWEEN + 0.45, "Total error against time, by degree",
         f"Total error of the stresses, mesh and method together; {threads(rows)}. Meshes: {kinds_in(rows)}. "
+        f"{words_of_crosses(rows)}"
         "Time: one solve; on adapted meshes the whole loop, all levels and error estimates, and the solve of a "
         "method that did not adapt them.",
         f"Bodies not drawn: {', '.join(map(title_of, others))}." if others else "",

@@ -22,6 +22,7 @@ STEPS = (1, 1.5, 2, 3, 5, 7)  # levels, times powers of ten
 LEVELS = 7  # lines of a table at most
 COSTS = ("mesh", "time", "peak heap")
 NAME = dict(weight="bold", fontsize=8.5)
+NAMED_IN_FULL = 2  # displacement methods
 FLOOR_WORDS = 11  # points, between words of two floors
 # Kinds of meshes: colour and width of their fronts.
 KINDS = {"as they are": ("black", 2.2), "refined everywhere": ("#6B6B80", 1.8),
@@ -51,7 +52,13 @@ def table_of(rows: list[Row]) -> str:
 
 def known_of(rows: list[Row]) -> list[Row]:
     highest = highest_of(rows)
-    return [row for row in rows if row.time_s and row.error_total and row.error_total <= highest]
+    return [row for row in rows if row.time_s and row.error_total and row.error_total <= highest
+            and not is_other_value(row)]
+
+
+def is_other_value(row: Row) -> bool:
+    """Of a program's own parameter, which the figure `peers_penalty` draws, not the one it stands for."""
+    return bool(row.program) and row.method != row.family
 
 
 def highest_of(rows: list[Row]) -> float:
@@ -116,7 +123,8 @@ def draw(rows: list[Row]) -> Figure | str:
                for body, table in tables.items()}
     figure = sheet(sum(heights.values()), "What a total error costs: method and mesh together",
                    caption(rows, known, kinds),
-                   left_out(rows, known, lambda row: f"no total error up to {percent(highest_of(rows))}"),
+                   left_out(rows, known, lambda row: "in peers_penalty" if is_other_value(row) else
+                            f"no total error up to {percent(highest_of(rows))}"),
                    lacking(known, {"peak heap": lambda row: row.peak_heap_bytes}))
     above = 0.0
     for body, of_body in bodies.items():
@@ -178,13 +186,14 @@ def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> No
     displacements = grouped(
         sorted((row for row in rows if row.in_displacements), key=lambda row: row.n_phi),
         lambda row: (displacements_of(rows).index(row.method), kinds.index(kind_of(row))))
+    words = "" if len(displacements) > NAMED_IN_FULL else " displacements"
     for (_, k), own in sorted(displacements.items()):
         line, look = line_of(own, column, "error_total"), own[0].look
         axes.plot(*line, color=look.colour, marker=look.marker, markersize=8, linewidth=1.5,
                   zorder=5, linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
         labels.avoid(*line)
-        labels.add(f"{own[0].label}, {kinds[k]}" if len(kinds) > 1 else
-                   f"{own[0].label} displacements", *line, color=look.colour, **NAME)
+        labels.add(f"{own[0].label}, {kinds[k]}" if len(kinds) > 1 else own[0].label + words, *line,
+                   color=look.colour, **NAME)
     draw_stops(axes, labels, [row for row in stress if kind_of(row) == "as they are"], column)
     for name, own in grouped(fronts.get("as they are", []), lambda row: row.label).items():
         meshes = list(dict.fromkeys(row.mesh for row in sorted(own, key=lambda row: row.n_phi)))
