@@ -43,6 +43,7 @@ from command import replace_all, run, text_writer
 from records import KEYS, RecordsError, Row, read, rows_of
 from selection import grouped
 from selection import value_of as value_of_row
+from words import percent, short
 
 PROJECT = Path(__file__).resolve().parent.parent
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
@@ -266,7 +267,7 @@ def cells_of(row: Row) -> tuple[str, ...]:
 def in_words(key: str, value: float | None) -> str:
     if value is None:
         return "—"
-    return seconds(value) if key.endswith("_s") else f"{100 * value:.2g} %" if key.startswith("error") else f"{value:.3g}"
+    return seconds(value) if key.endswith("_s") else percent(value) if key.startswith("error") else short(value)
 
 
 def table_by_mesh(rows: list[Row], keys: list[str]) -> str:

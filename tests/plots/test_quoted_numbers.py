@@ -123,8 +123,8 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assertEqual(self.check("--write")[0], 0)
         self.assertEqual(self.readme.read_text(encoding="utf-8"), head + (
             "|  | Mesh0 | Mesh7 |\n| --- | --- | --- |\n"
-            "| HYBRID | 12.3 ms, 3.9 % | 2.5 s, 0.4 % |\n"
-            "| soft | — | *1 s, 25 %* |\n<!-- end of table -->\nEND two\n"))
+            "| HYBRID | 12.3 ms, 3.9\u00a0% | 2.5 s, 0.4\u00a0% |\n"
+            "| soft | — | *1 s, 25\u00a0%* |\n<!-- end of table -->\nEND two\n"))
         self.readme.write_text(head.replace("error", "eror") + "<!-- end of table -->\nEND two\n", encoding="utf-8")
         self.assert_refused(self.quotes.read_text(encoding="utf-8"), "README.md: <!-- table run", "no column eror_total")
 
