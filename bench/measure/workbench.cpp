@@ -61,6 +61,10 @@ Workbench::Examination Workbench::examine(const Method& method,
   record = blank_record(posed_, method, options_);
   try {
     take_over(blocks(method), record);
+  } catch (const std::bad_alloc&) {
+    record.status = Status::out_of_memory;
+    record.status_reason = "assembly: an allocation was refused";
+    return examination;
   } catch (const std::exception& error) {
     record.status = Status::breakdown;
     record.status_reason = fmt::format("assembly: {}", error.what());

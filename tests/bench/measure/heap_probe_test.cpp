@@ -258,6 +258,20 @@ TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
   EXPECT_LE(record.assembly_peak_heap_bytes.value(), 3 * record.blocks_heap_bytes.value());
 }
 
+TEST(HeapProbe, AssemblyThatIsRefusedMemoryIsOutOfMemory) {
+  Options options;
+  options.repetitions = 1;
+  Workbench bench(testing::posed(Scene{}, testing::small_tooth(16, 12)), options);
+  const Method method = select_methods("3STEPD").front();
+  {
+    const heap::Limit limit(heap::live_bytes());
+    const Record refused = bench.examine(method, {}).record;
+    EXPECT_EQ(refused.status, Status::out_of_memory) << refused.status_reason;
+    EXPECT_EQ(refused.status_reason, "assembly: an allocation was refused");
+  }
+  EXPECT_EQ(bench.examine(method, {}).record.status, Status::ok);
+}
+
 // Wherever memory runs out, the case is out_of_memory and the process goes on.
 TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
   Workbench bench(testing::posed(Scene{}, testing::small_tooth(10, 8)), options_);
