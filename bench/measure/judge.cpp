@@ -111,7 +111,7 @@ void Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allow
   if (!(v.penetration_share > allowed)) return;
   record.status = Status::inaccurate;
   record.status_reason = fmt::format(
-      "{}penetrates the {} by {:.2g} mm, {:.2g} % of the largest displacement; allowed {:g} %",
+      "{}penetrates the {} by {:.2g} mm, {:.3g} % of the largest displacement; allowed {:g} %",
       prefix_of(worst - steps.begin()), obstacle_of(*problem_), *v.penetration_mm,
       100 * *v.penetration_share, 100 * allowed);
 }
