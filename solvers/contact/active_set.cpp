@@ -159,9 +159,10 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     history.insert(history.end(), swept.history.begin(), swept.history.end());
     ContactResult result = swept;
     finish_by_active_set(problem, options, deadline, result);
-    // With a dense D more sweeps are cheaper, and mostly do.
-    const bool has_more_sweeps_first = problem.is_dense() && next == first_sweeps;
-    if (!result.converged && !problem.bodies && !has_more_sweeps_first && result.F_C.allFinite())
+    // With a dense D more sweeps, where any are left, are cheaper and mostly do.
+    const bool sweeps_again =
+        problem.is_dense() && next == first_sweeps && sweeps < options.most_iterations;
+    if (!result.converged && !problem.bodies && !sweeps_again && result.F_C.allFinite())
       finish_by_proximal_points(problem, options, deadline, result);
     steps += result.active_set_steps;
     if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)

@@ -40,7 +40,7 @@ void finish_by_active_set(const contact::Problem& problem, const ContactOptions&
 // A few sweeps, then active sets; where these do not end, ten times as many sweeps, and active sets
 // again: what sweeps alone solve is solved. Where D is not formed ADMM iterates in place of sweeps;
 // where it is, proximal points (proximal_points.hpp) follow on active sets that do not end, with a
-// dense D from the second time on.
+// dense D from the second time on, or where no sweeps are left.
 ContactResult solve_contact_by_newton(const contact::Problem& problem,
                                       const ContactOptions& options = {},
                                       const Deadline& deadline = {});

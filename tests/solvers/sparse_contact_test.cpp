@@ -110,18 +110,23 @@ TEST(SparseContact, NewtonSolvesHyperstaticWalls) {
   }
 }
 
-// Where active sets alone do not end.
+// From ten sweeps, where active sets alone do not end.
+ContactResult finished_by_points_alone(const contact::Problem& problem) {
+  ContactResult result = iterated(problem, ContactSolver::gauss_seidel, 10);
+  finish_by_active_set(problem, {}, {}, result);
+  EXPECT_FALSE(result.converged) << problem.points.count;
+  const double before = result.natural_map_residual;
+  finish_by_proximal_points(problem, {}, {}, result);
+  EXPECT_TRUE(result.converged) << problem.points.count << ": " << before;
+  return result;
+}
+
 TEST(SparseContact, ProximalPointsSolveWhatActiveSetsAloneDoNot) {
   for (const auto& [shape, contacts, seed] : {std::tuple(Packed::brick_wall, 500, 1),
                                               {Packed::periodic_box, 500, 1},
                                               {Packed::flow, 300, 1}}) {
     const contact::Problem problem = packing(shape, 2, contacts, seed).problem();
-    ContactResult result = iterated(problem, ContactSolver::gauss_seidel, 10);
-    finish_by_active_set(problem, {}, {}, result);
-    EXPECT_FALSE(result.converged) << contacts;
-    const double before = result.natural_map_residual;
-    finish_by_proximal_points(problem, {}, {}, result);
-    EXPECT_TRUE(result.converged) << contacts << ": " << before;
+    const ContactResult result = finished_by_points_alone(problem);
     EXPECT_LT(relative_natural_map(dense(problem), result.F_C), 1e-11);
   }
 }
@@ -141,14 +146,13 @@ TEST(SparseContact, ProximalPointsTakeADenseD) {
 TEST(SparseContact, ADenseDIsSweptAgainBeforeProximalPoints) {
   for (const int seed : {2, 3}) {
     const contact::Problem whole = dense(packing(Packed::periodic_box, 2, 120, seed));
-    ContactResult by_points = iterated(whole, ContactSolver::gauss_seidel, 10);
-    finish_by_active_set(whole, {}, {}, by_points);
-    EXPECT_FALSE(by_points.converged) << seed;
-    finish_by_proximal_points(whole, {}, {}, by_points);
-    EXPECT_TRUE(by_points.converged) << seed;
+    finished_by_points_alone(whole);
     const ContactResult newton = solve_contact_by_newton(whole);
     EXPECT_TRUE(newton.converged) << seed;
     EXPECT_GT(newton.iterations, 10) << seed;
+    const ContactResult without_more = iterated(whole, ContactSolver::newton, 10);
+    EXPECT_TRUE(without_more.converged) << seed;
+    EXPECT_EQ(without_more.iterations, 10) << seed;
   }
 }
 
