@@ -1,6 +1,5 @@
 """./run reproduce measures one revision, puts complete parts into results/, and says of each what it is."""
 import gzip
-import importlib.util
 import json
 import subprocess
 import sys
@@ -10,15 +9,18 @@ from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
-PROJECT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "results"))
+
+import installing
+import measuring
+import parts
 
 
-def program():
-    spec = importlib.util.spec_from_file_location("reproduce", PROJECT / "results/reproduce.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["reproduce"] = module
-    spec.loader.exec_module(module)
-    return module
+def replaced(test: unittest.TestCase, *what: object) -> None:
+    """Module, name and value, for one test."""
+    patch = mock.patch.object(*what)
+    patch.start()
+    test.addCleanup(patch.stop)
 
 
 class InstallTest(unittest.TestCase):
@@ -26,11 +28,11 @@ class InstallTest(unittest.TestCase):
         place = tempfile.TemporaryDirectory()
         self.addCleanup(place.cleanup)
         self.folder = Path(place.name)
-        self.program = program()
-        self.program.HERE = self.folder / "results"
-        self.program.HERE.mkdir()
-        self.shop = self.program.Workshop(self.folder / "work", self.folder / "source")
-        self.parts = [self.program.Part(name, f"shows {name}", ["--mesh=Mesh0"], ["growth"])
+        self.results = self.folder / "results"
+        self.results.mkdir()
+        replaced(self, installing, "RESULTS", self.results)
+        self.shop = measuring.Workshop(self.folder / "work", self.folder / "source")
+        self.parts = [parts.Part(name, f"shows {name}", ["--mesh=Mesh0"], ["growth"])
                       for name in ("first", "second")]
 
     def measured(self, name: str, revision: str, figures: tuple[str, ...], *later: str) -> None:
@@ -46,35 +48,35 @@ class InstallTest(unittest.TestCase):
         for figure in figures:
             (whole / "figures" / figure).touch()
 
-    def install(self, *parts: int) -> str:
-        with mock.patch.object(self.program, "output_of"), mock.patch("builtins.print"):
-            self.program.install(self.shop, [self.parts[k] for k in parts], self.parts)
-        return (self.program.HERE / "reproduced.md").read_text(encoding="utf-8")
+    def install(self, *chosen: int) -> str:
+        with mock.patch.object(installing, "output_of"), mock.patch("builtins.print"):
+            installing.install(self.shop, [self.parts[k] for k in chosen], self.parts)
+        return (self.results / "reproduced.md").read_text(encoding="utf-8")
 
     def test_what_is_complete_replaces_what_was_there(self) -> None:
-        (self.program.HERE / "first").mkdir()
-        (self.program.HERE / "first/old.csv").touch()
+        (self.results / "first").mkdir()
+        (self.results / "first/old.csv").touch()
         self.measured("first", "abc", ("growth.png",))
         self.assertIn("| [first](first) | shows first | 1 | 1 ok | 0 | 2026-11-23T00:00:00Z | abc |",
                       self.install(0))
         self.assertEqual({"records.jsonl", "figures"},
-                         {file.name for file in (self.program.HERE / "first").iterdir()})
+                         {file.name for file in (self.results / "first").iterdir()})
 
     def test_many_records_are_packed_and_counted_as_before(self) -> None:
         self.measured("first", "abc", ("growth.png",))
-        self.program.LARGE = 50
+        replaced(self, installing, "LARGE", 50)
         self.assertIn("| 1 | 1 ok | 0 | 2026-11-23T00:00:00Z | abc |", self.install(0))
-        whole = self.program.HERE / "first"
+        whole = self.results / "first"
         self.assertEqual({"records.jsonl.gz", "figures"}, {file.name for file in whole.iterdir()})
         self.assertEqual((self.folder / "work/results/first/records.jsonl").read_bytes(),
                          gzip.decompress((whole / "records.jsonl.gz").read_bytes()))
 
     def test_a_part_without_its_figure_is_left_as_it_is(self) -> None:
-        (self.program.HERE / "first").mkdir()
-        (self.program.HERE / "first/old.csv").touch()
+        (self.results / "first").mkdir()
+        (self.results / "first/old.csv").touch()
         self.measured("first", "abc", ("other.png",))
         self.assertNotIn("[first]", self.install(0))
-        self.assertTrue((self.program.HERE / "first/old.csv").exists())
+        self.assertTrue((self.results / "first/old.csv").exists())
 
     def test_a_part_that_was_not_measured_is_left_as_it_is(self) -> None:
         self.assertNotIn("[second]", self.install(1))
@@ -85,7 +87,6 @@ class InstallTest(unittest.TestCase):
         self.install(0)
         said = self.install(1)
         self.assertLess(said.index("| abc |"), said.index("| def |"))
-
 
     def test_a_part_of_several_revisions_is_left_as_it_is(self) -> None:
         self.measured("first", "abc", ("growth.png",), "def")
@@ -100,15 +101,15 @@ class InstallTest(unittest.TestCase):
         copy.write_bytes(b"old")
         self.install(0)
         self.assertEqual(b"", copy.read_bytes())
-        self.assertEqual([], self.program.out_of_date(self.parts))
+        self.assertEqual([], installing.out_of_date(self.parts))
         copy.write_bytes(b"other")
         self.assertEqual(["docs/images/growth.png: not of these records (--install writes it)"],
-                         self.program.out_of_date(self.parts))
+                         installing.out_of_date(self.parts))
 
-    def check(self, *parts: int, others: str = "") -> tuple[int, list[str]]:
-        with mock.patch.object(self.program, "output_of", return_value=others), \
+    def check(self, *chosen: int, others: str = "") -> tuple[int, list[str]]:
+        with mock.patch.object(installing, "output_of", return_value=others), \
                 mock.patch("builtins.print") as printed:
-            status = self.program.check([self.parts[k] for k in parts] or self.parts, self.parts, None)
+            status = installing.check([self.parts[k] for k in chosen] or self.parts, self.parts, None)
         return status, [line for call in printed.call_args_list for line in call.args]
 
     def test_records_of_one_revision_pass_also_when_sessions_were_several(self) -> None:
@@ -128,7 +129,7 @@ class InstallTest(unittest.TestCase):
         status, lines = self.check()
         self.assertEqual((status, lines[-1]), (1, "2 revisions: abc, def"))
         self.assertEqual(self.check(1)[0], 0)
-        (self.program.HERE / "reproduced.md").write_text("old", encoding="utf-8")
+        (self.results / "reproduced.md").write_text("old", encoding="utf-8")
         self.assertEqual((1, "results/reproduced.md: not of these records (--install writes it)"),
                          (self.check(1)[0], self.check(1)[1][-1]))
 
@@ -141,7 +142,7 @@ class InstallTest(unittest.TestCase):
                          ["no records: second", "no records: old", "no part of reproduce.toml: old"])
 
     def test_every_night_is_looked_at(self) -> None:
-        nights = self.program.HERE / "first/nights"
+        nights = self.results / "first/nights"
         nights.mkdir(parents=True)
         for k, revision in enumerate(("abc", "def")):
             context = {"git_revision": revision, "git_dirty": "no", "date": f"2026-11-2{k}T00:00:00Z"}
@@ -154,27 +155,28 @@ class RevisionTest(unittest.TestCase):
         place = tempfile.TemporaryDirectory()
         self.addCleanup(place.cleanup)
         self.work = Path(place.name, "work")
-        self.program = program()
-        self.program.PROJECT = Path(place.name, "project")
-        self.program.PROJECT.mkdir()
+        self.project = Path(place.name, "project")
+        self.project.mkdir()
+        for module in (parts, measuring):
+            replaced(self, module, "PROJECT", self.project)
         self.git("init", "--quiet")
         self.first, self.second = self.commit("one"), self.commit("two")
 
     def git(self, *arguments: str) -> str:
-        return subprocess.run(["git", *arguments], cwd=self.program.PROJECT, capture_output=True, text=True,
+        return subprocess.run(["git", *arguments], cwd=self.project, capture_output=True, text=True,
                               check=True).stdout.strip()
 
     def commit(self, text: str) -> str:
-        (self.program.PROJECT / "file").write_text(text)
+        (self.project / "file").write_text(text)
         self.git("add", "file")
         self.git("-c", "user.name=test", "-c", "user.email=test@localhost", "commit", "--quiet", "-m", text)
         return self.git("rev-parse", "HEAD")
 
     def pinned(self, revision: str | None) -> str:
-        return (self.program.pinned(self.work, revision) / "file").read_text()
+        return (measuring.pinned(self.work, revision) / "file").read_text()
 
     def refused(self, revision: str | None) -> str:
-        with self.assertRaises(self.program.Refused) as refused:
+        with self.assertRaises(parts.Refused) as refused:
             self.pinned(revision)
         self.assertNotIn("\n", str(refused.exception))
         return str(refused.exception)
@@ -192,7 +194,7 @@ class RevisionTest(unittest.TestCase):
                       self.refused(third))
 
     def test_changes_that_are_not_committed_are_refused_unless_a_revision_is_named(self) -> None:
-        (self.program.PROJECT / "file").write_text("changed")
+        (self.project / "file").write_text("changed")
         self.assertIn("allowed: a clean tree, or --revision", self.refused(None))
         self.assertEqual(self.pinned("HEAD"), "two")
 
