@@ -15,7 +15,6 @@ namespace airybench {
 
 // Parts that broke a process and are not tried again; the text says how.
 struct LeftOut {
-  std::map<Blocks, std::string> blocks;
   std::string reference, discretisation;
 };
 

@@ -24,7 +24,6 @@ Workbench::Workbench(PosedProblem problem, const Options& options, const LeftOut
       problem_(held<Problem>(posed_)),
       contact_problem_(held<contact::Problem>(posed_)),
       options_(options),
-      blocks_left_out_(left_out.blocks),
       judge_(posed_, options, left_out) {}
 
 void Workbench::show_on(ActivityBoard* board) {
@@ -42,8 +41,6 @@ void Workbench::prepare(const Method& method) {
 }
 
 const AssembledBlocks& Workbench::blocks(const Method& method) {
-  if (const auto broken = blocks_left_out_.find(method.blocks); broken != blocks_left_out_.end())
-    throw std::runtime_error(broken->second);
   const std::pair which(method.blocks, method.degree);
   auto found = blocks_.find(which);
   if (found == blocks_.end()) {

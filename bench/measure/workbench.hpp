@@ -59,7 +59,6 @@ class Workbench {
   std::shared_ptr<const Problem> problem_;                   // null: there is no body
   std::shared_ptr<const contact::Problem> contact_problem_;  // null if there is a body
   const Options& options_;
-  std::map<Blocks, std::string> blocks_left_out_;  // which, and why
   Judge judge_;
   ActivityBoard* board_ = nullptr;
   std::map<std::pair<Blocks, int>, AssembledBlocks> blocks_;  // and the degree of the stresses

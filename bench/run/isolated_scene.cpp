@@ -211,7 +211,9 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Opti
   if (end.exit_code == heap::backstop_exit_code)
     return ended(Status::out_of_memory, ": it passed the memory limit");
   if (end.exit_code == no_memory_exit_code)
-    return ended(is_run(board.activity()) ? Status::out_of_memory : Status::machine_fault,
+    return ended(is_run(board.activity()) || board.activity() == Activity::assembly
+                     ? Status::out_of_memory
+                     : Status::machine_fault,
                  ": there was no memory");
   if (end.signal == 0) {
     run.message = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
@@ -274,7 +276,8 @@ void IsolatedScene::prepare_all() {
 
 void IsolatedScene::prepare(std::size_t k) {
   // Assembly, reference and discretisation may each break.
-  for (int attempt = 0; attempt < most_tries; ++attempt) {
+  const std::pair blocks(cases_[k]->method.blocks, cases_[k]->method.degree);
+  for (int attempt = 0; attempt < most_tries && !broken_assemblies_.contains(blocks); ++attempt) {
     if (process_ == nullptr) {
       examined_.clear();
       try {
@@ -291,16 +294,16 @@ void IsolatedScene::prepare(std::size_t k) {
     const ChildEnd& end = process_->end();
     const bool is_from_outside =
         end.stopped || is_unheard(end) || (end.signal == SIGKILL && end.oom_killed == false);
-    const std::string why = obituary_of(end, board_, options_).message;
+    const TimedRun obituary = obituary_of(end, board_, options_);
     switch (is_from_outside ? Activity::none : board_.activity()) {
       case Activity::assembly:
-        left_out_.blocks[cases_[k]->method.blocks] = why;
+        broken_assemblies_[blocks] = obituary;
         break;
       case Activity::discretisation:
-        left_out_.discretisation = why;
+        left_out_.discretisation = obituary.message;
         break;
       case Activity::reference:
-        left_out_.reference = "no reference: " + why;
+        left_out_.reference = "no reference: " + obituary.message;
         break;
       default:  // try again
         break;
@@ -314,6 +317,10 @@ Record IsolatedScene::examine(std::size_t k) {
   Record record = blank_record(*cases_[k], options_);
   if (record.status == Status::skipped) return record;
   prepare_all();
+  const Method& method = cases_[k]->method;
+  if (const auto broken = broken_assemblies_.find({method.blocks, method.degree});
+      broken != broken_assemblies_.end())
+    return record_of_end(*cases_[k], options_, broken->second);
   examined_.insert(k);
   const std::optional<std::string> answer = ask("examine", k);
   throw_if_interrupted();

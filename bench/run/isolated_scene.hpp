@@ -4,13 +4,15 @@
 //
 // The scene's process assembles and computes the reference once; the cases' processes inherit both.
 // A case's process lives from its examination to its last repetition, so that cases can be
-// interleaved. If it dies, hangs or exhausts memory, that becomes its record. If assembly or
-// reference breaks the scene's process, a new one leaves that part out. A run during which a
-// process was suspended does not count, and is repeated.
+// interleaved. If it dies, hangs or exhausts memory, that becomes its record. If the assembly of
+// blocks breaks the scene's process, that becomes the record of every case that needs them; a
+// reference that does is left out by a new one. A run during which a process was suspended does not
+// count, and is repeated.
 //
 // Commands are lines, "prepare 3", "examine 3", "time 3", "end 3"; answers are JSON on a line.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -50,6 +52,8 @@ class IsolatedScene {
   const Options& options_;
   ActivityBoard board_;  // of the scene's process
   LeftOut left_out_;     // parts that broke it
+  // Blocks and degree whose assembly broke it, and how it ended.
+  std::map<std::pair<Blocks, int>, TimedRun> broken_assemblies_;
   std::unique_ptr<ChildProcess> process_;
   std::pair<Status, std::string> why_no_process_ = {Status::machine_fault,
                                                     "its scene's process ended again and again"};
