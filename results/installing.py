@@ -76,7 +76,7 @@ def reproduced_text(parts: Iterable[Part]) -> str:
 
 def images_of(part: Part) -> list[tuple[Path, Path]]:
     """Figures in results/, and their copies in docs/."""
-    return [(RESULTS / part.name / "figures" / f"{name}.png", RESULTS.parent / "docs/images" / f"{name}.png")
+    return [(RESULTS / part.name / "figures" / f"{name}.png", PROJECT / "docs/images" / f"{name}.png")
             for name in part.images]
 
 
@@ -132,7 +132,7 @@ def out_of_date(every: list[Part]) -> list[str]:
     old = [] if said.exists() and said.read_text(encoding="utf-8") == reproduced_text(installed) else [said]
     old += [copy for part in installed for figure, copy in images_of(part)
             if not copy.exists() or copy.read_bytes() != figure.read_bytes()]
-    return [f"{file.relative_to(RESULTS.parent)}: not of these records (--install writes it)" for file in old]
+    return [f"{file.relative_to(PROJECT)}: not of these records (--install writes it)" for file in old]
 
 
 def check(parts: list[Part], every: list[Part], revision: str | None) -> int:

@@ -41,7 +41,7 @@ void Workbench::prepare(const Method& method) {
 }
 
 const AssembledBlocks& Workbench::blocks(const Method& method) {
-  const std::pair which(method.blocks, method.degree);
+  const BlocksKey which = blocks_key(method);
   auto found = blocks_.find(which);
   if (found == blocks_.end()) {
     const ActivityScope scope(board_, Activity::assembly);

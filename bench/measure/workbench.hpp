@@ -8,6 +8,10 @@
 
 namespace airybench {
 
+// Methods with the same key share their blocks.
+using BlocksKey = std::pair<Blocks, int>;  // and the degree of the stresses
+inline BlocksKey blocks_key(const Method& method) { return {method.blocks, method.degree}; }
+
 class Workbench {
  public:
   Workbench(PosedProblem problem, const Options& options, const LeftOut& left_out = {});
@@ -61,7 +65,7 @@ class Workbench {
   const Options& options_;
   Judge judge_;
   ActivityBoard* board_ = nullptr;
-  std::map<std::pair<Blocks, int>, AssembledBlocks> blocks_;  // and the degree of the stresses
+  std::map<BlocksKey, AssembledBlocks> blocks_;
 };
 
 }  // namespace airybench

@@ -275,8 +275,8 @@ void IsolatedScene::prepare_all() {
 }
 
 void IsolatedScene::prepare(std::size_t k) {
+  const BlocksKey blocks = blocks_key(cases_[k]->method);
   // Assembly, reference and discretisation may each break.
-  const std::pair blocks(cases_[k]->method.blocks, cases_[k]->method.degree);
   for (int attempt = 0; attempt < most_tries && !broken_assemblies_.contains(blocks); ++attempt) {
     if (process_ == nullptr) {
       examined_.clear();
@@ -317,8 +317,7 @@ Record IsolatedScene::examine(std::size_t k) {
   Record record = blank_record(*cases_[k], options_);
   if (record.status == Status::skipped) return record;
   prepare_all();
-  const Method& method = cases_[k]->method;
-  if (const auto broken = broken_assemblies_.find({method.blocks, method.degree});
+  if (const auto broken = broken_assemblies_.find(blocks_key(cases_[k]->method));
       broken != broken_assemblies_.end())
     return record_of_end(*cases_[k], options_, broken->second);
   examined_.insert(k);

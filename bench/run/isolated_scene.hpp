@@ -50,10 +50,9 @@ class IsolatedScene {
 
   const std::vector<const Case*>& cases_;
   const Options& options_;
-  ActivityBoard board_;  // of the scene's process
-  LeftOut left_out_;     // parts that broke it
-  // Blocks and degree whose assembly broke it, and how it ended.
-  std::map<std::pair<Blocks, int>, TimedRun> broken_assemblies_;
+  ActivityBoard board_;                              // of the scene's process
+  LeftOut left_out_;                                 // parts that broke it
+  std::map<BlocksKey, TimedRun> broken_assemblies_;  // whose assembly broke it, and how it ended
   std::unique_ptr<ChildProcess> process_;
   std::pair<Status, std::string> why_no_process_ = {Status::machine_fault,
                                                     "its scene's process ended again and again"};

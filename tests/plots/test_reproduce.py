@@ -31,6 +31,7 @@ class InstallTest(unittest.TestCase):
         self.results = self.folder / "results"
         self.results.mkdir()
         replaced(self, installing, "RESULTS", self.results)
+        replaced(self, installing, "PROJECT", self.folder)
         self.shop = measuring.Workshop(self.folder / "work", self.folder / "source")
         self.parts = [parts.Part(name, f"shows {name}", ["--mesh=Mesh0"], ["growth"])
                       for name in ("first", "second")]
