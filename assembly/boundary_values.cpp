@@ -62,15 +62,6 @@ void check(const std::string& label, const ContactValues& given) {
   check_curve(label + ": face", given.face);
 }
 
-void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
-  std::set<std::string> labels;
-  for (const BoundaryEdge& edge : mesh.boundary) labels.insert(boundary_label(mesh, edge));
-  for (const auto& [label, values] : conditions)
-    if (!labels.contains(label))
-      throw TransformError(label + ": no such group in the mesh " + mesh.name +
-                           " (its groups: " + joined(labels) + ")");
-}
-
 // Refuses rollers of a piece that are all parallel, as an edge holds the rotation and one
 // translation only, where no contact edge may hold it. pose() refuses pieces without any support.
 void check_held(const PieceSupport& support) {
@@ -91,14 +82,22 @@ void check_values(const BoundaryConditions& conditions) {
     check(label + ": pressure_MPa", given.pressure_MPa);
     check(label + ": displacement_mm", given.displacement_mm);
     check(label, given.contact);
-    // apply() refuses other labels: they name no group of a mesh.
+    // check_labels() refuses other labels: they name no group of a mesh.
     if (const auto known = parse_boundary_label(label)) check_role(label, known->role, given);
   }
 }
 
+void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
+  std::set<std::string> labels;
+  for (const BoundaryEdge& edge : mesh.boundary) labels.insert(boundary_label(mesh, edge));
+  for (const auto& [label, values] : conditions)
+    if (!labels.contains(label))
+      throw TransformError(label + ": no such group in the mesh " + mesh.name +
+                           " (its groups: " + joined(labels) + ")");
+}
+
 void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displacement_mm,
            const Mesh& mesh, Loads& loads) {
-  check_labels(conditions, mesh);
   auto of_row = std::make_shared<std::vector<BoundaryValues>>(mesh.boundary.size());
   const LinearValue<Eigen::Vector2d> everywhere{{displacement_mm, displacement_mm}};
   bool moved = false, pulled = false, rolling = false;

@@ -42,15 +42,17 @@ struct BoundaryValues {
 };
 using BoundaryConditions = std::map<std::string, BoundaryValues>;
 
-// Both throw TransformError, "label: key: value (allowed: …)".
+// All throw TransformError, "label: key: value (allowed: …)".
 
 // Refuses what is impossible on any mesh: non-finite numbers, two equal points, a key that the
 // label's role does not have, traction and pressure together.
 void check_values(const BoundaryConditions& conditions);
 
+// Refuses groups that the mesh lacks.
+void check_labels(const BoundaryConditions& conditions, const Mesh& mesh);
+
 // Sets u0, f and rollers of `loads`. displacement_mm: for displacement edges without a value.
-// Refuses groups that the mesh lacks, and supports of a piece without contact edges that leave a
-// rigid motion free.
+// Refuses supports of a piece without contact edges that leave a rigid motion free.
 void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displacement_mm,
            const Mesh& mesh, Loads& loads);
 

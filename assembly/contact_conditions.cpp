@@ -62,19 +62,6 @@ bool is_reached(const std::vector<GapPiece>& pieces, double reach_mm) {
   });
 }
 
-void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
-                double allowed_mm) {
-  const std::array<Eigen::Vector2d, 3> x = points_of(mesh, row);
-  const Eigen::Vector2d normal = edge_frame(x[0], x[2]).normal;
-  for (const Eigen::Vector2d& point : x) {
-    const std::optional<double> t = distance_to_either_side(face, point, normal);
-    if (t && std::abs(*t) <= allowed_mm) continue;
-    refuse(label + ": face", t ? "is " + shown(std::abs(*t)) + " mm" : std::string("is not seen"),
-           "from the edge at " + shown(point) + " (allowed: up to " + shown(allowed_mm) +
-               " mm, 5 % of the body's size)");
-  }
-}
-
 void check_interference(const std::string& label, const Eigen::Vector2d& at, double gap_mm,
                         double diameter_mm) {
   constexpr double most = 0.1;
@@ -104,8 +91,21 @@ struct EdgeGap {
 
 }  // namespace
 
+void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
+                double allowed_mm) {
+  const std::array<Eigen::Vector2d, 3> x = points_of(mesh, row);
+  const Eigen::Vector2d normal = edge_frame(x[0], x[2]).normal;
+  for (const Eigen::Vector2d& point : x) {
+    const std::optional<double> t = distance_to_either_side(face, point, normal);
+    if (t && std::abs(*t) <= allowed_mm) continue;
+    refuse(label + ": face", t ? "is " + shown(std::abs(*t)) + " mm" : std::string("is not seen"),
+           "from the edge at " + shown(point) + " (allowed: up to " + shown(allowed_mm) +
+               " mm, 5 % of the body's size)");
+  }
+}
+
 ReachableContact with_reachable_contact(MatchedFaces faces, const Scene& scene) {
-  constexpr double farthest = 100, face_share = 0.05;
+  constexpr double farthest = 100;
   Mesh& mesh = faces.mesh;
   std::vector<std::vector<GapPiece>> pieces_of_row(mesh.boundary.size());
   const MeshExtent extent = extent_of(mesh);
@@ -126,7 +126,7 @@ ReachableContact with_reachable_contact(MatchedFaces faces, const Scene& scene) 
       free.push_back(row);
       continue;
     }
-    if (values.face) check_face(mesh, row, label, *values.face, face_share * diameter);
+    if (values.face) check_face(mesh, row, label, *values.face, most_of_face * diameter);
     for (const GapPiece& piece : pieces) {  // without clearance, which load steps may change
       if (!piece.is_met) continue;
       check_interference(label, edge.at(piece.start), piece.gap_mm[0], diameter);

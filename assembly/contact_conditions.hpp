@@ -20,6 +20,11 @@ struct ReachableContact {
   Problem::Matching changes;
   std::vector<std::vector<GapPiece>> pieces;
 };
+// Throws TransformError if the curve that a contact edge stands for is farther from it.
+void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
+                double allowed_mm);
+inline constexpr double most_of_face = 0.05;  // of the mesh's size
+
 // Contact edges that meet no wall within a hundred sizes of the body and at less than 87° to their
 // normal become free edges of the group `out_of_reach`. An edge that meets a wall only in part has
 // the largest gap seen from its ends and middle. Throws TransformError: a wall that no edge of a

@@ -112,8 +112,9 @@ ControlPoints control_points(const Problem& problem) {
   points.law.count = static_cast<int>(points.node.size());
   if (!problem.opposite.empty()) pair_points<p>(problem, *prescribed, points, friction, offset);
   if (points.law.components == 2) points.law.friction = std::move(friction);
-  if (problem.has_gap() ||
-      std::ranges::any_of(offset, [](const ContactOffset& own) { return own.gap_mm != 0; })) {
+  if (problem.has_gap() || std::ranges::any_of(offset, [](const ContactOffset& own) {
+        return own.gap_mm != 0 || own.slid_mm != 0;
+      })) {
     const int m = points.law.components;
     points.law.gap.resize(points.law.size());
     for (int i = 0; i < points.law.count; ++i)

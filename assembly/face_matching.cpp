@@ -44,7 +44,7 @@ class Matcher {
   FaceMatching match() {
     std::map<int, int> twin = snap();
     insert(twin);
-    return {std::move(twin), {face_[0].normal, face_[1].normal}, changes_, split_rows_};
+    return {std::move(twin), {face_[0].normal, face_[1].normal}, changes_, split_rows_, met_twice_};
   }
 
  private:
@@ -123,8 +123,8 @@ class Matcher {
     return nearest.best;
   }
   // Rounding beyond an end counts as the end.
+  static constexpr double rounding = 1e-9;
   static double clamped(double s) {
-    constexpr double rounding = 1e-9;
     if (std::abs(s) < rounding) return 0;
     return std::abs(s - 1) < rounding ? 1 : s;
   }
@@ -216,15 +216,24 @@ class Matcher {
     std::set<int> matched;
     for (const auto& [a, b] : twin) matched.insert(b);
     const std::array<Tree, 2> trees = {tree_of(0), tree_of(1)};
+    const auto is_matched = [&](int side, int v) {
+      return side == 0 ? twin.contains(v) : matched.contains(v);
+    };
     for (const int side : {0, 1})
-      for (const auto& [v, n] : face_[side].normal)
-        if (side == 0 ? !twin.contains(v) : !matched.contains(v))
-          if (const std::optional<Hit> hit = on_other(side, v, trees[1 - side]);
-              hit && is_inside(hit->s))
-            into[1 - side][hit->row].push_back({hit->s, v, normal_at(1 - side, hit->row, hit->s)});
+      for (const auto& [v, n] : face_[side].normal) {
+        if (is_matched(side, v)) continue;
+        const std::optional<Hit> hit = on_other(side, v, trees[1 - side]);
+        if (!hit) continue;
+        if (is_inside(hit->s))
+          into[1 - side][hit->row].push_back({hit->s, v, normal_at(1 - side, hit->row, hit->s)});
+        else if (const int end = ends(hit->row)[hit->s > 0 ? 1 : 0]; is_matched(1 - side, end))
+          met_twice_ = x(end);
+      }
     for (const int side : {0, 1})
       for (auto& [row, nodes] : into[side]) {
         std::ranges::sort(nodes, {}, &Node::s);
+        for (std::size_t i = 1; i < nodes.size(); ++i)
+          if (nodes[i].s - nodes[i - 1].s < rounding) met_twice_ = place(row, nodes[i].s);
         for (const auto& [of_this, of_other] : split(row, nodes)) {
           if (side == 0)
             twin[of_this] = of_other;
@@ -290,6 +299,7 @@ class Matcher {
   std::map<int, std::vector<std::size_t>> triangles_at_;
   std::vector<int> split_rows_;
   Problem::Matching changes_;
+  std::optional<Point> met_twice_;
   int first_born_ = 0;
 };
 

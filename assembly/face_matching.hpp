@@ -29,13 +29,15 @@ struct FaceMatching {
   std::array<std::map<int, Eigen::Vector2d>, 2> normal;  // per face and vertex
   Problem::Matching changes;
   std::vector<int> split_rows;  // of Mesh::boundary, with vertices inserted
+  // A place that two vertices of the other face meet: a step or a fold of that face.
+  std::optional<Eigen::Vector2d> met_twice;
 };
 
 // A vertex nearer to one of the other face than this share of the shorter edge at either is moved.
 inline constexpr double snapping = 0.15;
 
 // Puts the vertices of each face into the other, or moves those that nearly match. Vertices farther
-// apart than reach_mm do not face each other.
+// apart than reach_mm do not face each other. Where a place is met twice, the mesh is of no use.
 FaceMatching match_faces(Mesh& mesh, std::array<MatchingFace, 2> faces, double reach_mm);
 
 }  // namespace airybench

@@ -123,6 +123,9 @@ class PairedEdges {
                "at " + shown(x) + " (allowed: up to a tenth of the mesh's size, " +
                    shown(most * size_mm) + " mm)");
     }
+    for (const int side : {row, other})
+      if (const std::optional<Wall>& curve = curve_of(scene_, label(side)))
+        check_face(mesh_, side, label(side), *curve, most_of_face * size_mm);
     edges[row] = of_first;
     edges[other] = of_second;
   }
@@ -176,6 +179,11 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
     check_two_pieces(changed, pair, faces);
     check_apart(changed, pair, faces);
     const FaceMatching matching = match_faces(changed, faces, size_mm);
+    if (matching.met_twice)
+      refuse(place_of(pair), "meet twice",
+             "at " + shown(*matching.met_twice) +
+                 " (allowed: faces of which one place, at most, lies in front of another: no steps "
+                 "or folds, and bodies side by side with a gap)");
     result.edges.resize(changed.boundary.size());
     const int count = PairedEdges(changed, pair, scene, matching).put_into(result.edges, size_mm);
     if (count == 0)

@@ -39,15 +39,6 @@ auto of_scene(const Scene& scene, const std::string& key, auto change) {
   }
 }
 
-ReachableContact contact_of(const Scene& scene, Mesh mesh) {
-  mesh = of_scene(scene, "mesh", [&] { return transformed(std::move(mesh), scene.mesh); });
-  mesh = of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
-  MatchedFaces faces =
-      of_scene(scene, "", [&] { return with_matched_faces(std::move(mesh), scene); });
-  return of_scene(scene, "boundary",
-                  [&] { return with_reachable_contact(std::move(faces), scene); });
-}
-
 struct Face {
   Eigen::Vector2d middle;  // of the segment between the face's ends
   double half_height;      // half that segment's length
@@ -353,6 +344,24 @@ std::vector<Loads> loads_of_steps(const Scene& scene, const ReachableContact& co
   return steps;
 }
 
+// Before contact edges that meet nothing leave their groups.
+void check_groups(const Scene& scene, const Mesh& mesh) {
+  of_scene(scene, "boundary", [&] { check_labels(scene.boundary, mesh); });
+  for (std::size_t k = 0; k < scene.later_steps.size(); ++k)
+    of_scene(scene, step_prefix(k) + "boundary",
+             [&] { check_labels(scene.later_steps[k].boundary, mesh); });
+}
+
+ReachableContact contact_of(const Scene& scene, Mesh mesh) {
+  mesh = of_scene(scene, "mesh", [&] { return transformed(std::move(mesh), scene.mesh); });
+  mesh = of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
+  check_groups(scene, mesh);
+  MatchedFaces faces =
+      of_scene(scene, "", [&] { return with_matched_faces(std::move(mesh), scene); });
+  return of_scene(scene, "boundary",
+                  [&] { return with_reachable_contact(std::move(faces), scene); });
+}
+
 }  // namespace
 
 std::string names_of(const ContactPair& pair) {
@@ -377,7 +386,7 @@ void check_values(const Scene& scene) {
   if (scene.crown_radius_mm &&
       (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
     fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
-         "(allowed: > 0, or null for a flat wall)");
+         "(allowed: > 0, or null for a wall on the edges)");
   of_scene(scene, "", [&] { check_curve("wall", scene.wall); });
   of_scene(scene, "", [&] { check_curve("face", scene.face); });
   check_contacts(scene);

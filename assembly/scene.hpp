@@ -61,7 +61,7 @@ struct Scene {
 
   // On Γ_C, except groups with their own values (contact_conditions.hpp).
   double friction = 0.2;                            // μ ≥ 0
-  std::optional<double> crown_radius_mm = 400;      // of a wall at the faces; none: flat
+  std::optional<double> crown_radius_mm = 400;      // of a wall at the faces; none: on the edges
   std::optional<Wall> wall = {}, face = {};         // instead of a crown
   double clearance_mm = 0;                          // added to the gap, ≥ 0
   Eigen::Vector2d displacement_mm = {0.02, 0.006};  // of Γ_D

@@ -51,7 +51,7 @@ struct MeshTransform {
   std::optional<int> keep_force_edges;         // ≥ 0
 };
 inline constexpr int most_refinements = 6;
-inline constexpr std::size_t most_triangles = 1'000'000;  // that a transformation makes
+inline constexpr std::size_t most_triangles = 1'000'000;  // that `refine` makes
 
 // Throws TransformError when a value is impossible on any mesh.
 void check_values(const MeshTransform& transform);

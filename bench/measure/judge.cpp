@@ -51,12 +51,17 @@ bool Judge::is_answered(const Solution& solution) const {
   return problem_ ? !solution.stress.empty() : solution.F_C.size() > 0;
 }
 
-JudgedStep Judge::judged(int step, const DualSystem& system, const Solution& solution) {
+JudgedStep Judge::judged(const std::vector<JudgedStep>& before, const DualSystem& system,
+                         const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
+  const int step = static_cast<int>(before.size());
   const double dissipation = dissipation_Nmm(system, solution);
   if (solution.displacement.cols() == 0) {
     const Verification v = verify(system, solution, reference(system.degree, step));
-    return {solution.status, v, verify_as_other_solution(system, solution, v), dissipation};
+    double start_off_N = 0;
+    for (const JudgedStep& one : before) start_off_N += one.verification.slip_off_N;
+    return {solution.status, v, verify_as_other_solution(system, solution, v, start_off_N),
+            dissipation};
   }
   JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
   if (solution.program) {
@@ -69,17 +74,20 @@ JudgedStep Judge::judged(int step, const DualSystem& system, const Solution& sol
 }
 
 JudgedStep Judge::judged(const AssembledBlocks& blocks, const Solution& solution) {
-  if (problem_) return judged(0, *blocks.system, solution);
+  if (problem_) return judged({}, *blocks.system, solution);
   const ActivityScope scope(board_, Activity::verification);
   return {solution.status, verify(*contact_problem_, solution.F_C)};
 }
 
 std::optional<Verification> Judge::verify_as_other_solution(const DualSystem& system,
                                                             const Solution& solution,
-                                                            const Verification& v) {
+                                                            const Verification& v,
+                                                            double start_off_N) {
   const auto is_small = [&](double error) { return error <= options_.target_error; };
   // Only forces that meet the law with the reference's D and G, but differ from its forces.
+  // A step that starts from a wrong slip meets the law of another problem.
   if (is_small(worst_measure(v).value) || !v.friction_coupling ||
+      !(start_off_N <= options_.target_error * solution.F_C.norm()) ||
       !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
     return {};
   try {

@@ -29,7 +29,9 @@ class Judge {
   bool knows_errors(const AssembledBlocks& blocks) {
     return contact_problem_ || reference(blocks.system->degree) != nullptr;
   }
-  JudgedStep judged(int step, const DualSystem& system, const Solution& solution);
+  // before: the steps of the path up to this one.
+  JudgedStep judged(const std::vector<JudgedStep>& before, const DualSystem& system,
+                    const Solution& solution);
   JudgedStep judged(const AssembledBlocks& blocks, const Solution& solution);  // without a path
   // The status may become worse; steps: of the whole path.
   void judge(const Method& method, const std::vector<JudgedStep>& steps, const Solution& solution,
@@ -59,10 +61,11 @@ class Judge {
   std::string prefix_of(std::int64_t step) const {
     return problem_ ? step_prefix(step, *problem_) : "";
   }
-  // Against the nearest solution, if that is not the reference's.
+  // Against the nearest solution, if that is not the reference's. start_off_N: how far slip is off
+  // from which the step starts, Verification::slip_off_N.
   std::optional<Verification> verify_as_other_solution(const DualSystem& system,
                                                        const Solution& solution,
-                                                       const Verification& v);
+                                                       const Verification& v, double start_off_N);
   // Of an external program: through the wall by more than it is allowed is inaccurate.
   void judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
                          Record& record) const;

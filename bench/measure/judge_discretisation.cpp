@@ -175,11 +175,18 @@ const Json* Judge::half_steps(int degree) {
 namespace {
 
 // What is left of a path's stresses is rounding: nothing is relative to it.
-bool ends_unloaded(const std::vector<JudgedStep>& steps) {
+bool is_unloaded(const std::vector<JudgedStep>& steps, const JudgedStep& step) {
   constexpr double rounding = 1e-20;  // of energy
   double largest = 0;
-  for (const JudgedStep& step : steps) largest = std::max(largest, step.seen().strain_energy_Nmm);
-  return steps.size() > 1 && steps.back().seen().strain_energy_Nmm <= rounding * largest;
+  for (const JudgedStep& other : steps) largest = std::max(largest, other.seen().strain_energy_Nmm);
+  return steps.size() > 1 && step.seen().strain_energy_Nmm <= rounding * largest;
+}
+
+std::optional<double> error_before_the_last(const Record& record, std::size_t step) {
+  const auto error = record.steps[step].find("error_discretisation");
+  return error != record.steps[step].end() && error->is_number()
+             ? std::optional(error->get<double>())
+             : std::nullopt;
 }
 
 }  // namespace
@@ -194,17 +201,26 @@ void Judge::judge_discretisation(const Method& method, const std::vector<JudgedS
   const Json* const halves = half_steps(method.degree);
   if (halves != nullptr) record.steps_in_halves = *halves;
   if (record.status != Status::ok) return;
-  if (ends_unloaded(steps)) {
+  const auto is_refused = [&](const std::optional<double>& error, const std::string& prefix) {
+    if (!is_all_error(error)) return false;
+    record.status = Status::inaccurate;
+    record.status_reason =
+        prefix + (std::isinf(*error) ? "it has stress, and the reference has none"
+                                     : fmt::format("its total error is {:.0f} %: nothing of it is "
+                                                   "known",
+                                                   100 * *error));
+    return true;
+  };
+  for (std::size_t k = 0; k + 1 < record.steps.size(); ++k)
+    if (!is_unloaded(steps, steps[k]) &&
+        is_refused(error_before_the_last(record, k), prefix_of(static_cast<std::int64_t>(k))))
+      return;
+  if (is_unloaded(steps, steps.back())) {
     record.error_discretisation.reset();
     record.error_mean.reset();
     record.no_discretisation_error =
         "the last load step has no stress that it could be relative to";
-  } else if (is_all_error(record.error_discretisation)) {
-    record.status = Status::inaccurate;
-    record.status_reason = std::isinf(*record.error_discretisation)
-                               ? "it has stress, and the reference has none"
-                               : fmt::format("its total error is {:.0f} %: nothing of it is known",
-                                             100 * *record.error_discretisation);
+  } else if (is_refused(record.error_discretisation, "")) {
     return;
   }
   if (method.in_displacements && !record.error_discretisation && record.status_reason.empty())

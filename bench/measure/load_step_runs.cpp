@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <tuple>
 
 #include "solvers/base/dense_products.hpp"
@@ -29,9 +30,15 @@ void add(const std::optional<T>& more, std::optional<T>& sum) {
   if (more) sum = sum.value_or(0) + *more;
 }
 
+// NaN is the largest, and stays.
+template <typename T>
+bool is_larger(T value, T largest) {
+  return !(value <= largest) && !std::isnan(static_cast<double>(largest));
+}
+
 template <typename T>
 void raise(const std::optional<T>& other, std::optional<T>& largest) {
-  if (other && !(largest.value_or(*other) > *other)) largest = other;  // NaN counts as largest
+  if (other && (!largest || is_larger(*other, *largest))) largest = other;
 }
 
 void take_step(bool is_first, const std::string& prefix, const Solution& step, Solution& path) {
@@ -134,7 +141,7 @@ std::size_t worst_step(const std::vector<JudgedStep>& steps) {
   std::size_t worst = 0;
   double largest = worst_measure(steps.front().seen()).value;
   for (std::size_t k = 1; k < steps.size(); ++k)
-    if (const double value = worst_measure(steps[k].seen()).value; !(value <= largest)) {
+    if (const double value = worst_measure(steps[k].seen()).value; is_larger(value, largest)) {
       worst = k;
       largest = value;
     }

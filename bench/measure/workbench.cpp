@@ -218,8 +218,9 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   Run result;
   VisitStep visit;
   if (in_detail)
-    visit = [&](int step, const DualSystem& posed, const Solution& answer) {
-      if (!answer.stress.empty()) result.judged.push_back(judge_.judged(step, posed, answer));
+    visit = [&](int, const DualSystem& posed, const Solution& answer) {
+      if (!answer.stress.empty())
+        result.judged.push_back(judge_.judged(result.judged, posed, answer));
     };
   double watched_s = 0;
   const auto start = std::chrono::steady_clock::now();

@@ -47,6 +47,19 @@ Sums sums_of(const std::vector<FaceCurve>& curves) {
   return sums;
 }
 
+// Whether every walk goes on where another begins, or where it began.
+bool join(const std::vector<FaceCurve>& curves, double length) {
+  constexpr double apart = 1e-9;
+  const auto any_walk = [&](const auto& is) {
+    return std::ranges::any_of(
+        curves, [&](const FaceCurve& curve) { return std::ranges::any_of(curve.walks, is); });
+  };
+  return !any_walk([&](const Walk& walk) {
+    return !any_walk(
+        [&](const Walk& next) { return (next.front() - walk.back()).norm() <= apart * length; });
+  });
+}
+
 // How far the curve reaches along a direction: at a vertex, or at an arc's outermost point.
 Eigen::Vector2d farthest_of(const FaceCurve& curve, const Eigen::Vector2d& outward) {
   const auto how_far = [&](const Eigen::Vector2d& p) { return p.dot(outward); };
@@ -120,7 +133,8 @@ Json wall_at(const std::vector<FaceCurve>& curves) {
   const Sums sums = sums_of(curves);
   const Eigen::Vector2d middle = sums.moment / sums.length;
   const std::optional<Circle> face = common_circle(curves);
-  const bool is_closed = sums.normal.norm() < closed * sums.length,
+  const bool is_balanced = sums.normal.norm() < closed * sums.length,
+             is_closed = is_balanced && join(curves, sums.length),
              is_hollow = face && (face->centre_mm - middle).dot(sums.normal) > 0;
   if (is_closed || is_hollow) {
     const bool is_disc = is_closed && sums.area > 0;
@@ -129,7 +143,9 @@ Json wall_at(const std::vector<FaceCurve>& curves) {
     wall["circle"]["bodies"] = is_disc ? "inside" : "outside";
     return wall;
   }
-  const Eigen::Vector2d outward = sums.normal.normalized();
+  // Sides that look in opposite directions have no wall in common: that of the first.
+  const Eigen::Vector2d outward =
+      (is_balanced ? sums_of({{{curves.front().walks.front()}, {}}}) : sums).normal.normalized();
   Eigen::Vector2d point = farthest_of(curves.front(), outward);
   for (const FaceCurve& curve : curves)
     if (const Eigen::Vector2d p = farthest_of(curve, outward); p.dot(outward) > point.dot(outward))

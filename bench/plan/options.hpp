@@ -20,7 +20,7 @@ struct AdaptGoal {
   std::optional<double> error;  // relative total error
   std::optional<int> unknowns;  // least n_φ
 };
-// "1%": an error above 0 % and below 100 %. "50000": 1 to 5 000 000 unknowns. Else empty.
+// "1%": an error above 0 % and below 100 %. "50000": 100 to 5 000 000 unknowns. Else empty.
 std::optional<AdaptGoal> adapt_goal_of(const std::string& text);
 std::string text_of(const std::vector<AdaptGoal>& goals);  // "1%,50000"
 

@@ -20,7 +20,7 @@ struct SceneFile {
 // Scene::name is the file's stem. Throws InputError, one line: file, key, value, allowed values.
 SceneFile read_scene_file(const std::filesystem::path& file);
 Scene read_scene(const std::filesystem::path& file);
-// Outside the catalogue of meshes, a flat wall replaces the default crown.
+// Outside the catalogue of meshes, a wall on the edges replaces the default crown.
 SceneFile on_other_bodies(SceneFile file);
 Scene scene_of(const std::string& text, const std::string& place);  // place: for messages
 

@@ -94,9 +94,21 @@ std::string outcome_of(const Record& r) {
   const auto is_met = [&](const std::optional<double>& error) {
     return !error || (r.target_error && *error <= *r.target_error);
   };
-  const bool is_of_the_mesh = is_all_error(r.error_discretisation) && is_met(r.error_stress) &&
-                              is_met(r.error_force) && is_met(r.equilibrium_residual) &&
-                              is_met(r.natural_map_residual);
+  const auto of_step = [](const Json& step, const char* key) {
+    const auto found = step.find(key);
+    return found != step.end() && found->is_number() ? std::optional(found->get<double>())
+                                                     : std::nullopt;
+  };
+  const bool mesh_is_off =
+      is_all_error(r.error_discretisation) || std::ranges::any_of(r.steps, [&](const Json& step) {
+        return is_all_error(of_step(step, "error_discretisation"));
+      });
+  const bool is_of_the_mesh = mesh_is_off && is_met(r.error_stress) && is_met(r.error_force) &&
+                              is_met(r.equilibrium_residual) && is_met(r.natural_map_residual) &&
+                              std::ranges::all_of(r.steps, [&](const Json& step) {
+                                const std::optional<double> error = of_step(step, "error");
+                                return error && is_met(error);
+                              });
   if (r.status == Status::inaccurate && r.claimed_status == Status::ok && !is_of_the_mesh)
     return r.error_stress ? "wrong_success" : "unverified";
   return r.other_solution ? "other_solution" : std::string(name_of(r.status));

@@ -7,8 +7,9 @@ namespace airybench {
 
 void summarise(Record& record);
 
-// If the method claims ok and the verifier disagrees: "wrong_success", or "unverified" without a
-// reference. A discretisation error above 1 alone does not count. Else "other_solution" or status.
+// If the method claims ok and the verifier disagrees: "wrong_success", or "unverified" without an
+// error_stress. A discretisation error above 1 alone does not count. Else "other_solution" or
+// status.
 std::string outcome_of(const Record& record);
 
 // Whether the intervals of both median times overlap, so that neither is known to be faster.
@@ -18,7 +19,9 @@ inline constexpr int fewest_to_tell_apart =
 // error_total, of a path of load steps the largest of its steps'.
 std::optional<double> worst_error_total(const Record& record);
 // A total error of 100 % and more. Where bodies miss each other on the mesh it is 1 up to rounding.
-inline bool is_all_error(const std::optional<double>& error) { return error >= 1 - 1e-9; }
+inline bool is_all_error(const std::optional<double>& error) {
+  return error && !(*error < 1 - 1e-9);  // NaN: nothing is known
+}
 
 bool has_few_samples(const Record& record);
 

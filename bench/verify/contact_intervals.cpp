@@ -271,7 +271,8 @@ void add_ends(const Mesh& mesh, const std::vector<int>& rows,
     double middle = (low + high) / 2;
     if (is_closed) middle -= along.back() * std::floor(middle / along.back());
     const auto beyond = std::ranges::upper_bound(along, middle);
-    const auto edge = static_cast<std::size_t>(beyond - along.begin()) - 1;
+    // Rounding may leave it at the end of a closed face.
+    const auto edge = std::min(static_cast<std::size_t>(beyond - along.begin()), rows.size()) - 1;
     const int row = rows[edge];
     ends[k].at_mm = mesh.vertices[mesh.boundary[row].vertices[0]] +
                     (middle - along[edge]) * frame_of(mesh, row).tangent;

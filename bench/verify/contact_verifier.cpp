@@ -118,6 +118,16 @@ void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
   if (m > 1) result.coulomb_violation_N = coulomb;
 }
 
+void note_slip(const Problem& problem, const ContactPoints& contact, const Eigen::VectorXd& F,
+               const Eigen::VectorXd& displacement, const Eigen::VectorXd& expected,
+               const Eigen::VectorXd& D_diagonal, const LoadScale& scale, Verification& result) {
+  const bool on_path = !problem.later_steps.empty() || problem.loads.slid_mm.size() > 0;
+  if (!on_path || contact.components != 2) return;
+  const Eigen::VectorXd off = (displacement - expected).cwiseQuotient(D_diagonal);
+  result.slip_off_N = off(Eigen::seq(1, Eigen::last, 2)).norm();
+  result.slip_off = scale.relative_force(result.slip_off_N, F.norm());
+}
+
 void note_contact(const ContactPoints& points, const Eigen::MatrixXd& D, const Eigen::VectorXd& F,
                   const Eigen::VectorXd& displacement, const LoadScale& scale,
                   Verification& result) {

@@ -96,7 +96,9 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
 void judge_admissibility(const Eigen::VectorXd& F_C, const DisplacementField& u, double highest_gap,
                          double highest_force, ConstitutiveError& error) {
   constexpr double rounding = 1e-9;
-  if (highest_gap > rounding * u.lpNorm<Eigen::Infinity>())
+  if (!u.allFinite() || !std::isfinite(error.squared_Nmm()))
+    error.flaw = "stresses or displacements are not finite";
+  else if (highest_gap > rounding * u.lpNorm<Eigen::Infinity>())
     error.flaw = fmt::format("the displacements go {:.1e} mm through the wall", highest_gap);
   else if (highest_force > rounding * F_C.lpNorm<Eigen::Infinity>())
     error.flaw = fmt::format("the contact forces pull with {:.1e} N", highest_force);

@@ -59,7 +59,8 @@ struct ConstitutiveError {
 StressField mean_stress(const Problem& problem, const StressField& stress,
                         const DisplacementField& u);
 
-// stress, F_C: from an equilibrium method, at the contact points of `system`; u: quadratic.
+// stress, F_C: from an equilibrium method, at the contact points of `system`; u: of the
+// stresses' degree plus one.
 ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,
                                      const Eigen::VectorXd& F_C, const DisplacementField& u);
 

@@ -59,6 +59,23 @@ Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementFi
   return force;
 }
 
+// Over the largest displacement.
+double relative_to_prescribed(const Problem& problem, const DisplacementField& w,
+                              const PrescribedDisplacement& prescribed, double precision) {
+  const DisplacementField u = with_rigid_motion(problem, w);
+  double off = 0, largest = 0;
+  const auto add = [&](Eigen::Index node, double distance) {
+    off = larger_error(off, std::abs(distance) - precision * u.col(node).norm());
+  };
+  for (Eigen::Index node = 0; node < w.cols(); ++node) {
+    largest = std::max({largest, w.col(node).norm(), prescribed.u.col(node).norm()});
+    if (prescribed.at[node]) add(node, (w.col(node) - prescribed.u.col(node)).norm());
+  }
+  for (const auto& [node, n] : prescribed.normal)
+    add(node, n.dot(w.col(node) - prescribed.u.col(node)));
+  return relative_error(off, largest, 0);
+}
+
 // Takes out what a weak contact law leaves at nodes of the triangles along Γ_C: contact forces,
 // whose normal and tangential sum it returns.
 Eigen::Vector2d take_weak_forces(const Problem& problem, const std::vector<bool>& prescribed,
@@ -129,6 +146,10 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
       unbalanced = std::max(unbalanced, balance.sum.col(node).cwiseAbs().maxCoeff());
 
   Verification result;
+  constexpr double of_doubles = 1e-15;
+  result.prescribed_off = relative_to_prescribed(
+      problem, solution.displacement, prescribed,
+      of_doubles + (solution.program ? solution.program->print_precision : 0));
   result.equilibrium_residual = scale.relative_force(unbalanced, balance.largest);
   result.unbalanced_N = resultant.norm();
   result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;
@@ -139,6 +160,8 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
   const Eigen::VectorXd compliance = rough_compliance(problem, law);
   note_contact_forces(law, F, result);
   note_contact_law(law, F, displacement, compliance, scale, result);
+  note_slip(problem, law, F, solution.contact_displacement, displacement, compliance, scale,
+            result);
   const Penetration through = penetration(problem, solution.displacement);
   result.penetration_mm = through.at_nodes_mm;
   result.edge_penetration_mm = through.on_edges_mm;

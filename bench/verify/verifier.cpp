@@ -226,12 +226,16 @@ MomentsCheck check_moments(const DualSystem& system, const Eigen::MatrixXd& edge
 
 namespace {
 
-void verify_contact(const ContactPoints& points, const Solution& solution,
-                    const Reference* reference, const LoadScale& scale, Verification& result) {
+void verify_contact(const DualSystem& system, const Solution& solution, const Reference* reference,
+                    const LoadScale& scale, Verification& result) {
+  const ContactPoints& points = system.contact;
   const Eigen::VectorXd& F = solution.F_C;
   if (reference == nullptr) return note_contact_forces(points, F, result);
   const Eigen::MatrixXd& D = reference->condensed.D;
-  note_contact(points, D, F, times(D, F) - reference->condensed.G, scale, result);
+  const Eigen::VectorXd displacement = times(D, F) - reference->condensed.G;
+  note_contact(points, D, F, displacement, scale, result);
+  note_slip(*system.problem, points, F, solution.contact_displacement, displacement, D.diagonal(),
+            scale, result);
   result.error_force =
       scale.relative_energy(D_norm(D, F - reference->F_C), D_norm(D, reference->F_C));
 }
@@ -242,9 +246,12 @@ void verify_moments(const DualSystem& system, const Solution& solution, const Lo
   result.stress_of_moments_off =
       scale.relative_energy(stress_distance(*system.problem, solution.stress, check.stress),
                             std::sqrt(stress_norm_squared(*system.problem, solution.stress)));
-  if (system.contact.count > 0)
-    note_contact_law(system.contact, solution.F_C, check.contact_displacement,
-                     rough_compliance(*system.problem, system.contact), scale, result);
+  if (system.contact.count == 0) return;
+  const Eigen::VectorXd compliance = rough_compliance(*system.problem, system.contact);
+  note_contact_law(system.contact, solution.F_C, check.contact_displacement, compliance, scale,
+                   result);
+  note_slip(*system.problem, system.contact, solution.F_C, solution.contact_displacement,
+            check.contact_displacement, compliance, scale, result);
 }
 
 }  // namespace
@@ -268,7 +275,7 @@ Verification verify(const DualSystem& system, const Solution& solution,
     result.error_stress_absolute = distance;
     result.reference_error = reference->error_estimate;
   }
-  if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
+  if (system.contact.count > 0) verify_contact(system, solution, reference, scale, result);
   if (reference == nullptr && solution.edge_moments.cols() > 0)
     verify_moments(system, solution, scale, result);
   return result;
@@ -284,6 +291,8 @@ WorstMeasure worst_measure(const Verification& v) {
   consider("error_force", v.error_force);
   consider("natural_map_residual", v.natural_map_residual);
   consider("distance of stresses from those of the edge moments", v.stress_of_moments_off);
+  consider("distance from the prescribed displacements", v.prescribed_off);
+  consider("error of the slip, from which the next load step starts,", v.slip_off);
   return worst;
 }
 

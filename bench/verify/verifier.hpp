@@ -30,6 +30,12 @@ struct Verification {
   // Without a reference: distance of the stresses from those of the edge moments, relative in the
   // energy norm. Not an error: see check_moments().
   std::optional<double> stress_of_moments_off;
+  // Of displacements: how far they are from those prescribed, over the largest.
+  std::optional<double> prescribed_off;
+  // Of a path of load steps with friction: how far the tangential ū_C, from which the next step
+  // measures slip, is from the right one, as forces ρ_t Δu_t over ‖F‖, and in N.
+  std::optional<double> slip_off;
+  double slip_off_N = 0;
   // The stress of the reference or displacement method is zero; errors are relative to the loads.
   bool unstressed = false;
   std::optional<double> equilibrium_residual = std::numeric_limits<double>::infinity();
@@ -55,6 +61,7 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 
 // For a displacement method, whose discrete problem has no reference: judges displacements and
 // forces at the control points (control_points.hpp). Sets no error_*, no complementary energy.
+//   prescribed_off        on Γ_D, of rollers the normal part, less what printed digits explain
 //   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
 //                         points, over the largest nodal force of an element; a program's force
 //                         without friction may be between the normals of two edges at their vertex,
@@ -94,6 +101,11 @@ void note_contact_states(const ContactPoints& contact, const Eigen::VectorXd& F,
 void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
                       const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
                       const LoadScale& scale, Verification& result);
+
+// Of a path of load steps with friction; displacement: ū_C as the method gives it.
+void note_slip(const Problem& problem, const ContactPoints& contact, const Eigen::VectorXd& F,
+               const Eigen::VectorXd& displacement, const Eigen::VectorXd& expected,
+               const Eigen::VectorXd& D_diagonal, const LoadScale& scale, Verification& result);
 
 void note_contact(const ContactPoints& contact, const Eigen::MatrixXd& D, const Eigen::VectorXd& F,
                   const Eigen::VectorXd& displacement, const LoadScale& scale,

@@ -33,10 +33,12 @@ VertexStars<k>::VertexStars(const Problem& problem, const std::vector<OfTriangle
       constexpr int inner = 2 * Triangle::inner;
       const SmallCholesky<double, inner> factor(
           Eigen::Matrix<double, inner, inner>(K.template bottomRightCorner<inner, inner>()));
-      Eigen::Matrix<double, inner, 2 * outer> root =
-          K.template bottomLeftCorner<inner, 2 * outer>();
-      factor.solve_lower(root);
-      of_outer -= root.transpose() * root;
+      if (factor.last_pivot() > 0) {  // else a sliver's inner coefficients stay as they are
+        Eigen::Matrix<double, inner, 2 * outer> root =
+            K.template bottomLeftCorner<inner, 2 * outer>();
+        factor.solve_lower(root);
+        of_outer -= root.transpose() * root;
+      }
     }
     for (const int v : problem.mesh.triangles[t]) ++first_[v + 1];
   }

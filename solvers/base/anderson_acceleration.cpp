@@ -63,6 +63,7 @@ void AndersonAcceleration::subtract_least_squares(const Eigen::VectorXd& f) {
 
 void AndersonAcceleration::forget() {
   kept_ = 0;
+  column_ = 0;
   started_ = false;
   smallest_ = std::numeric_limits<double>::infinity();
 }

@@ -123,7 +123,9 @@ class Deadline {
  public:
   Deadline() = default;  // none
   static Deadline after(double seconds) {
+    constexpr double never = 1e9;  // the clock's integers end soon after
     Deadline deadline;
+    if (seconds > never) return deadline;
     deadline.end_ = std::chrono::steady_clock::now() +
                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                         std::chrono::duration<double>(seconds));

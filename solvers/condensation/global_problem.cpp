@@ -118,10 +118,12 @@ contact::Problem condense_global(SparseColumns M, SparseColumns H, const Eigen::
 
   const std::vector<int> block = blocks_of(M);
   const std::vector<std::vector<int>> columns = columns_at(block, H);
+  const std::int64_t most =
+      std::max<std::int64_t>(limit.entries, limit.times * (M.nonZeros() + H.nonZeros()));
   std::int64_t entries = 0;
-  for (int j = 0; j < H.cols(); ++j)
+  for (int j = 0; j < H.cols() && entries <= most; ++j)
     entries += static_cast<std::int64_t>(pattern(j, block, columns, H).size());
-  if (entries > std::max(limit.entries, limit.times * (M.nonZeros() + H.nonZeros()))) {
+  if (entries > most) {
     problem.bodies = bodies_of(std::move(M), std::move(H), factor);
     problem.how = "not formed";
   } else if (held_sparse(H.cols(), entries)) {

@@ -29,6 +29,7 @@ ContactResult solve_contact_by_admm(const contact::Problem& problem, const Conta
   Eigen::VectorXd y = Eigen::VectorXd::Zero(problem.points.size());
   int iteration = 0, next_change = 1, pause = 1;
   return iterate_contact(problem, options, deadline, [&](Eigen::VectorXd& z) {
+    deadline.check("ADMM's iterations");  // each is a solve, and some a factorisation
     Eigen::VectorXd next = offset + weight.cwiseProduct(z - y);
     if (!problem.is_symmetric) next -= skew_times(F);
     D_with_weight.solve(next, F);

@@ -90,6 +90,13 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
   return result;
 }
 
+void refuse_free_bodies(const ContactPoints& contact) {
+  if (contact.free.is_empty()) return;
+  throw Breakdown(contact.free.bodies.front() +
+                  " is held by contact alone: only methods that condense on the contact points "
+                  "find its motion");
+}
+
 ContactPoints with_known_motion(ContactPoints points, const Eigen::VectorXd& motion_mm) {
   const Eigen::VectorXd moved = points.free.motions * motion_mm;
   if (points.gap.size() > 0)

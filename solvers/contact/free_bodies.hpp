@@ -21,6 +21,9 @@ namespace airybench {
 ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
                                      const Deadline& deadline);
 
+// For methods without D. Throws Breakdown.
+void refuse_free_bodies(const ContactPoints& contact);
+
 // Motions that are known stand in the gap.
 ContactPoints with_known_motion(ContactPoints points, const Eigen::VectorXd& motion_mm);
 

@@ -47,7 +47,7 @@ void WeightedCompliance::factorise(const Eigen::VectorXd& weight) {
 
 // Preconditioned by the diagonal.
 void WeightedCompliance::solve_iteratively(const Eigen::VectorXd& b, Eigen::VectorXd& F) const {
-  constexpr double tolerance = 1e-14;  // ‖b − (D + W) F‖ ≤ tolerance · ‖b‖, or it no longer falls
+  constexpr double tolerance = 1e-14;  // ‖b − (D + W) F‖ ≤ tolerance · ‖b‖
   constexpr int most_iterations = 500;
   const SparseRows& D = problem_->rows;
   const auto times = [&](const Eigen::VectorXd& x) {

@@ -8,6 +8,7 @@
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/contact_compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/free_bodies.hpp"
 #include "solvers/direct/factor_counts.hpp"
 #include "solvers/two_level/rows_check.hpp"
 #include "solvers/two_level/slot_rows.hpp"
@@ -146,6 +147,7 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
 }
 
 Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) {
+  refuse_free_bodies(airy.contact);
   const auto body = std::make_shared<KrylovBody>();
   Solution solution;
   make_two_levels(airy, control, *body, solution);

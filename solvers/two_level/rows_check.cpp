@@ -22,7 +22,7 @@ Correction solve_under(ContactRows& rows, const std::vector<PointLaw>& laws, Eig
   Eigen::VectorXd Kx;
   rows.multiply(correction.x, Kx);
   correction.norm =
-      std::sqrt(std::max(0.0, rows.dot(correction.x, Kx))) + rows.error_left(linear, {}, false);
+      std::sqrt(larger_error(0, rows.dot(correction.x, Kx))) + rows.error_left(linear, {}, false);
   iterations += linear.iterations;
   return correction;
 }
@@ -44,19 +44,19 @@ double rows_error(ContactRows& rows, UnbalancedForces unbalanced, const RowsAnsw
               2 * rows.dot(under_laws.x, d);
   }
   const double stress =
-      safety * std::sqrt(std::max(0.0, squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
-  const double estimate = std::max(scale.relative_force(largest_r, unbalanced.largest),
-                                   scale.relative_energy(stress, stress_norm));
+      safety * std::sqrt(larger_error(0, squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
+  const double estimate = larger_error(scale.relative_force(largest_r, unbalanced.largest),
+                                       scale.relative_energy(stress, stress_norm));
   if (rows.contact.count == 0) return estimate;
   const std::vector<PointLaw> open(laws.size());
   const Correction held = solve_under(rows, open, std::move(load), iterations);
   const Eigen::VectorXd map =
       natural_map(rows.contact, compliance, F_C, u_C + rows.of_contact(held.x));
   const double of_map = 2 * std::sqrt(map.cwiseAbs2().dot(compliance));
-  return std::max({estimate,
-                   scale.relative_energy(safety * (norm_under_laws + held.norm + of_map),
-                                         rows.norm_from_below(F_C)),
-                   scale.relative_force(map.norm(), F_C.norm())});
+  const double of_forces = scale.relative_energy(safety * (norm_under_laws + held.norm + of_map),
+                                                 rows.norm_from_below(F_C));
+  return larger_error(larger_error(estimate, of_forces),
+                      scale.relative_force(map.norm(), F_C.norm()));
 }
 
 }  // namespace airybench

@@ -13,9 +13,9 @@
 //                                             (contact_compliance.hpp)
 //   ‖r‖_∞ / ‖forces‖_∞                        equilibrium
 //
-// with a half more on what is solved for. A wrong law of points on a soft layer is nothing in ‖c‖
-// next to the forces of a stiff one, but not in ‖c‖_D; the factor 2 is that of ALM's estimate
-// (docs/theory.md).
+// with a half more on the first two, and e/100 on the stress. A wrong law of points on a soft layer
+// is nothing in ‖c‖ next to the forces of a stiff one, but not in ‖c‖_D; the factor 2 is that of
+// ALM's estimate (docs/theory.md).
 #pragma once
 
 #include "assembly/load_scale.hpp"

@@ -125,7 +125,9 @@ UzawaResult iterate_accelerated(const DualSystem& system, PenalisedFactor& penal
     const bool lost = !std::isfinite(residual) || result.primal_N > diverges * std::max(first, 1.0);
     const bool stalls = result.iterations > best_at + patience;
     const bool compared = paper || result.iterations > 1 || result.primal_N == 0;
-    const bool met = !lost && compared && residual <= (stalls ? at_rounding * enough : enough);
+    // The paper's stop has no check that would judge what rounding leaves.
+    const bool met =
+        !lost && compared && residual <= (stalls && !paper ? at_rounding * enough : enough);
     if (met || lost || stalls || result.iterations >= options.most_iterations) {
       result.outcome = met    ? UzawaOutcome::converged
                        : lost ? UzawaOutcome::diverged

@@ -7,6 +7,7 @@
 
 #include "solvers/condensation/finish.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/free_bodies.hpp"
 
 namespace airybench {
 namespace {
@@ -152,6 +153,7 @@ void check_uzawa_answer(const DualSystem& system, const PenalisedSolve& penalise
 }  // namespace
 
 SparseColumns penalised_matrix(const DualSystem& system, const Eigen::VectorXd& R) {
+  refuse_free_bodies(system.contact);
   SparseColumns lower = system.S;
   add_normal_product(system.C_F, R.head(system.n_f()), lower);
   add_normal_product(system.C_C, R.tail(system.n_c()), lower);

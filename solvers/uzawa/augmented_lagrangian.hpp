@@ -33,7 +33,8 @@
 
 namespace airybench {
 
-// S + Cᵀ R C, lower triangle, R diagonal over the rows of C = [C_F; C_C].
+// S + Cᵀ R C, lower triangle, R diagonal over the rows of C = [C_F; C_C]. Throws Breakdown where
+// contact alone holds a body.
 SparseColumns penalised_matrix(const DualSystem& system, const Eigen::VectorXd& R);
 
 struct AugmentedFactor {
@@ -68,7 +69,8 @@ std::size_t uzawa_bytes(const DualSystem& system, int count);
 
 // One iteration for every ρ, side by side: they share the reading of the factor. race: the others
 // are given up when the first converges, and no solutions and histories are kept. Nothing is
-// allocated inside an iteration, but for histories. Throws TimeoutReached.
+// allocated inside an iteration, but for histories and bodies that press on each other. Throws
+// TimeoutReached.
 std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
                                        const std::vector<double>& rhos, const UzawaOptions& options,
                                        bool race = false, const Deadline& deadline = {});

@@ -295,5 +295,24 @@ TEST(AndersonAcceleration, GoesBackToTheBestWhenTheResidualGrows) {
   EXPECT_EQ(acceleration.next(one(9), one(100))(0), 9);
 }
 
+TEST(AndersonAcceleration, AfterForgettingItIsAsNew) {
+  constexpr int n = 6;
+  std::mt19937 generator(2);
+  const Eigen::MatrixXd A = 0.4 * testing::random_matrix(n, n, generator);
+  const Eigen::VectorXd b = testing::random_matrix(n, 1, generator);
+  AndersonAcceleration used(n, 4), fresh(n, 4);
+  const auto steps = [&](AndersonAcceleration& acceleration, int count) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+    for (int k = 0; k < count; ++k) {
+      const Eigen::VectorXd g = A * x + b;
+      x = acceleration.next(g, g - x);
+    }
+    return x;
+  };
+  steps(used, 3);
+  used.forget();
+  EXPECT_EQ(steps(used, 4), steps(fresh, 4));
+}
+
 }  // namespace
 }  // namespace airybench::augmented_lagrangian_test

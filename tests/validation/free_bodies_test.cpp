@@ -202,6 +202,18 @@ TEST(FreeBodies, TheReferenceFindsTheMotion) {
   EXPECT_LT(worst_measure(verify(system, answer, &reference)).value, 1e-10);
 }
 
+TEST(FreeBodies, MethodsWithoutDRefuseThem) {
+  for (const char* name : {"ALM:AUTO", "ALM:r=20,rho=20", "HYBRID:CG"}) {
+    const Method method = select_methods(name).front();
+    const DualSystem system =
+        assemble(testing::posed(loaded_pile(0.3), pile()), method.blocks, method.degree);
+    const Solution solution = run(method.solve, system, {});
+    EXPECT_EQ(solution.status, Status::breakdown) << name;
+    EXPECT_NE(solution.message.find("is held by contact alone"), std::string::npos)
+        << name << ": " << solution.message;
+  }
+}
+
 TEST(FreeBodies, EachFaceCarriesWhatLiesAboveIt) {
   for (const double friction : {0., 0.3})
     for (const char* name : {"HYBRID", "HYBRID:k=3", "BLIND:SCHUR"}) {

@@ -425,5 +425,63 @@ TEST(TwoBodies, WhatCannotBeIsRefusedInALine) {
             "default scene: load_steps: 1: contacts: clearance_mm: nan (allowed: finite numbers)");
 }
 
+// The place would belong to two contact points.
+TEST(TwoBodies, FacesThatMeetAPlaceTwiceAreRefused) {
+  Scene scene = pressed(0.3);
+  scene.materials = {{"base", {70000, 0.33}}, {"left", {210000, 0.3}}, {"right", {210000, 0.3}}};
+  scene.contacts[0].between[0] = {"contact:left", "contact:right"};
+  const auto side_by_side = [&](int base, double gap_mm) {
+    Mesh mesh;
+    mesh.name = "side by side";
+    add_block(mesh, "base", {0, -6}, {12, 0}, base, 5,
+              {"displacement:floor", "force", "contact:base", "force"});
+    add_block(mesh, "left", {1, 0}, {6, 5}, 4, 4,
+              {"contact:left", "force", "displacement:head", "force"});
+    add_block(mesh, "right", {6 + gap_mm, 0}, {11, 5}, 5, 4,
+              {"contact:right", "force", "displacement:head", "force"});
+    return testing::complaint_of<SceneError>([&] { pose(scene, mesh); });
+  };
+  for (const int base : {12, 7}) {  // at a vertex of the base, and inside an edge
+    EXPECT_EQ(side_by_side(base, 0.1), "no complaint") << base;
+    EXPECT_EQ(
+        side_by_side(base, 0),
+        "default scene: contacts: contact:left, contact:right and contact:base: meet twice at "
+        "[6, 0] (allowed: faces of which one place, at most, lies in front of another: no "
+        "steps or folds, and bodies side by side with a gap)")
+        << base;
+  }
+}
+
+TEST(TwoBodies, TheCurveOfAPairedFaceIsWhereItsEdgesAre) {
+  Scene scene = pressed(0.3);
+  const auto lowered_by = [&](double mm) {
+    scene.boundary["contact:base"].contact.face =
+        CircularWall{{6, -400 - mm}, 400, CircularWall::Bodies::inside};
+    return testing::complaint_of<SceneError>([&] { pose(scene, two_blocks(8, 8)); });
+  };
+  EXPECT_EQ(lowered_by(0), "no complaint");
+  EXPECT_TRUE(lowered_by(3).starts_with("default scene: contact:base: face: is 3.0"))
+      << lowered_by(3);
+}
+
+// It leaves the group, whose name the scene may still have.
+TEST(TwoBodies, AGroupThatFacesNothingMayHaveValues) {
+  Scene scene = pressed(0.3);
+  scene.contacts[0].between[1] = {"contact:base", "contact:side"};
+  scene.boundary["contact:side"] = {};
+  Mesh mesh;
+  mesh.name = "blocks";
+  add_block(mesh, "base", {0, -6}, {12, 0}, 8, 5,
+            {"displacement:floor", "force", "contact:base", "contact:side"});
+  add_block(mesh, "block", {0, 0}, {12, 5}, 8, 4,
+            {"contact:block", "force", "displacement:head", "force"});
+  EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(scene, mesh); }), "no complaint");
+  scene.boundary["contact:sied"] = {};
+  EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(scene, mesh); }),
+            "default scene: boundary: contact:sied: no such group in the mesh blocks (its groups: "
+            "contact:base, contact:block, contact:side, displacement:floor, displacement:head, "
+            "force)");
+}
+
 }  // namespace
 }  // namespace airybench::two_bodies_test

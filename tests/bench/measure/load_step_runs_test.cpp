@@ -82,6 +82,49 @@ TEST(LoadStepRuns, APathMayEndUnloaded) {
   }
 }
 
+TEST(LoadStepRuns, AStepInTheMiddleMayHaveNothingRight) {
+  Scene lifted;
+  lifted.displacement_mm = {0.02, 0};
+  lifted.later_steps.resize(3);
+  lifted.later_steps[1].displacement_mm = Eigen::Vector2d(0, 0);
+  lifted.later_steps[2].displacement_mm = Eigen::Vector2d(0.02, 0);
+  for (const Method& method : select_methods("HYBRID,P2")) {
+    Record record = testing::measured(testing::posed(lifted), method);
+    summarise(record);
+    const bool is_stuck = method.name == "P2";  // as where the path ends there
+    EXPECT_EQ(record.outcome, is_stuck ? "inaccurate" : "ok") << record.status_reason;
+    EXPECT_EQ(record.status_reason.find("load step 3 of 4: ") == 0, is_stuck)
+        << record.status_reason;
+  }
+}
+
+// The next step starts from it: then everything after is another problem's, and looks right.
+TEST(LoadStepRuns, AWrongSlipIsSeen) {
+  for (Method method : select_methods("HYBRID,HYBRID:k=2,P2,3STEPD:CHOLMOD,ALM:AUTO")) {
+    int solves = 0;
+    method.solve = [&, right = method.solve](const DualSystem& system, const RunControl& control) {
+      RunControl alone = control;
+      alone.keep_body = false;
+      Solution solution = right(system, alone);
+      if (++solves == 2) solution.contact_displacement *= 1.01;
+      return solution;
+    };
+    Record record = examined(sheared_and_back(), method);
+    summarise(record);
+    EXPECT_EQ(record.status, Status::inaccurate) << method.name;
+    EXPECT_EQ(record.outcome, method.in_displacements ? "unverified" : "wrong_success");
+  }
+}
+
+TEST(LoadStepRuns, AStepThatIsNoNumberIsTheWorst) {
+  std::vector<JudgedStep> steps(4, JudgedStep{Status::ok, {}});
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    steps[k].verification.equilibrium_residual = k == 1 ? std::nan("") : 1e-9 * double(k);
+  EXPECT_EQ(worst_step(steps), 1u);
+  steps[1].verification.equilibrium_residual = 1;
+  EXPECT_EQ(worst_step(steps), 1u);
+}
+
 TEST(LoadStepRuns, APathWithFrictionIsSolvedInHalfStepsToo) {
   Scene scene;
   const auto examined_in = [&](int steps, double friction, const char* method = "HYBRID") {

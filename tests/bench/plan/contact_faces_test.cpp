@@ -53,6 +53,10 @@ TEST(ContactFaces, WallsJustTouch) {
       wall_at({arc({0, 1}, 1, pi, 1.5 * pi, 8), sole, arc({9, 1}, 1, 1.5 * pi, 2 * pi, 8)});
   EXPECT_EQ(mixed["flat"]["normal"], Json({0., 1.}));
   EXPECT_NEAR(mixed["flat"]["point_mm"][1].get<double>(), 0, 1e-9);
+  // Two sides that look in opposite directions are no disc: the wall of the first.
+  const Json opposite = wall_at({{{{{0, 0}, {9, 0}}, {{9, 4}, {0, 4}}}, {}}})["flat"];
+  EXPECT_EQ(opposite["normal"], Json({0., 1.}));
+  EXPECT_EQ(opposite["point_mm"][1], 0);
   // A square hole.
   const Walk hole = {{0, 0}, {0, 2}, {2, 2}, {2, 0}, {0, 0}};
   EXPECT_EQ(wall_at({{{hole}, circle_of({hole})}})["circle"]["radius_mm"], 1);

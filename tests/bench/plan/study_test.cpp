@@ -238,6 +238,22 @@ TEST(Study, OutcomesTellWhoKnewWhat) {
   EXPECT_EQ(outcome_of(record), "breakdown");
 }
 
+TEST(Study, AnErrorOfTheMeshIsNotTheMethods) {
+  Record record;
+  record.claimed_status = Status::ok;
+  record.status = Status::inaccurate;
+  record.target_error = 1e-6;
+  record.error_stress = 1e-9;
+  record.error_discretisation = 1.2;
+  EXPECT_EQ(outcome_of(record), "inaccurate");
+  record.steps = {{{"error", 1e-9}}, {{"error", 1e-9}}};
+  EXPECT_EQ(outcome_of(record), "inaccurate");
+  record.steps[0]["error"] = 1e-3;
+  EXPECT_EQ(outcome_of(record), "wrong_success");
+  record.steps[0]["error"] = nullptr;  // not a number
+  EXPECT_EQ(outcome_of(record), "wrong_success");
+}
+
 Record point_record(const std::string& study, std::optional<double> tolerance) {
   Record record;
   record.mesh = "Mesh0";
