@@ -116,7 +116,7 @@ TEST(Scene, ContradictionsAndImpossibleValuesAreNamed) {
   EXPECT_EQ(with([](Scene& s) { s.friction = -0.1; }),
             "default scene: friction: -0.1 (allowed: >= 0)");
   EXPECT_EQ(with([](Scene& s) { s.crown_radius_mm = -1; }),
-            "default scene: crown_radius_mm: -1 (allowed: > 0, or null for a flat wall)");
+            "default scene: crown_radius_mm: -1 (allowed: > 0, or null for a wall on the edges)");
   EXPECT_EQ(with([](Scene& s) { s.clearance_mm = -1; }),
             "default scene: clearance_mm: -1 (allowed: >= 0)");
   EXPECT_EQ(with([](Scene& s) { s.displacement_mm.x() = std::nan(""); }),

@@ -296,7 +296,7 @@ TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(complaint(R"({"displacement_mm": [1]})"),
             "displacement_mm: [1] (allowed: two numbers [x, y])");
   EXPECT_EQ(complaint(R"({"crown_radius_mm": 0})"),
-            "crown_radius_mm: 0 (allowed: > 0, or null for a flat wall)");
+            "crown_radius_mm: 0 (allowed: > 0, or null for a wall on the edges)");
   EXPECT_EQ(complaint(R"({"materials": {"a": {"nu": 0.3}}})"),
             "materials: a: nu: unknown key (allowed: young_MPa, poisson)");
   EXPECT_EQ(complaint(R"({"materials": {"a": {"poisson": 0.7}}})"),
