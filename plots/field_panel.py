@@ -224,14 +224,16 @@ def draw_legend(figure: Figure, scales: drawing.Scales, solutions: list[Fields])
 
 
 def contact_points(solutions: list[Fields]) -> str:
-    """A line per contact point, by face in the pictures' order; along: the pictures' axis of the
-    face."""
+    """A line per contact point, by face in the pictures' order, evenly spread over its edge; along: the
+    pictures' axis of the face."""
     lines = []
     for s in solutions:
         for k, face in enumerate(faces_of(s)):
-            for edge, along in zip(face, unrolled(s.edges[face]).along):
+            for edge, (start, end) in zip(face, unrolled(s.edges[face]).along):
+                at = np.linspace(0, 1, len(s.state[edge]))
+                places = (1 - at)[:, None] * s.edges[edge][0] + at[:, None] * s.edges[edge][1]
                 lines += [(s, letter_of(k), *point) for point in
-                          zip(s.edges[edge], map(float, along), s.traction[edge], s.state[edge])]
+                          zip(places, map(float, (1 - at) * start + at * end), s.traction[edge], s.state[edge])]
     return csv_of(lines, *columns_of(lambda line: line[0], "mesh", "n_phi"),
                   ("face", lambda line: line[1]), ("x_mm", lambda line: float(line[2][0])),
                   ("y_mm", lambda line: float(line[2][1])), ("along_mm", lambda line: line[3]),

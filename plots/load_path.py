@@ -113,7 +113,9 @@ def read_path(results: Path, name: str) -> LoadPath | str:
             (("held", 7), ("loaded", 9)) if np.isfinite(numbers[:, k:k + 2]).all()}
     moved_what = max(ways, key=lambda what: np.ptp(ways[what], axis=0).max(), default="")
     moved = ways.get(moved_what)
-    push = -on_body.sum(1) @ np.stack([mean, (-mean[1], mean[0])], 1)
+    other = first[:, 9]  # of pairs both sides are in the file: the first counts
+    once = ~((other > 0) & (other < np.arange(len(first)) + 1))
+    push = -on_body[:, once].sum(1) @ np.stack([mean, (-mean[1], mean[0])], 1)
     loads = numbers[:, 11] if numbers.shape[1] > 11 else numbers[:, 0]
     path = LoadPath(
         name, numbers[:, 0].astype(int), files == "body", False, push[:, 1], push[:, 0],

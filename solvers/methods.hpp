@@ -12,8 +12,8 @@
 
 namespace airybench {
 
-// The paper's names first. A method may stand there twice, under an alias and under its general
-// name.
+// Those of the paper and their kin first. A method may stand there twice, under an alias and under
+// its general name.
 const std::vector<Method>& methods();
 
 // What solves contact problems that come without a body; it is not in the table.

@@ -166,8 +166,8 @@ std::string why_hopeless(const Prediction& expected, const Prediction& fastest,
 }
 
 // Removes hopeless cases, then the longest ones until earlier records say that the rest fits into
-// the budget; keeps the shortest case and cases without records. Returns a row for each removed
-// case.
+// the budget; keeps the shortest case that is forecast, and cases without records. Returns a row
+// for each removed case.
 std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s,
                               const std::vector<Record>& past) {
   std::vector<Record> planned;
@@ -176,14 +176,17 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
   std::vector<std::size_t> order(plan.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return expected[k].run_s.value_or(0); });
+  const auto forecast_one =
+      std::ranges::find_if(order, [&](std::size_t k) { return expected[k].time_s.has_value(); });
+  const std::size_t shortest = forecast_one == order.end() ? order.front() : *forecast_one;
   std::vector<Advice> rows;
   std::vector<bool> stays(plan.size(), true);
   double spent_s = 0;
   for (const std::size_t k : order) {
     spent_s += expected[k].run_s.value_or(0);
-    std::string why = why_hopeless(expected[k], expected[order.front()], options);
+    std::string why = why_hopeless(expected[k], expected[shortest], options);
     if (why.empty() && spent_s > budget_s) why = "forecast: over --budget";
-    stays[k] = why.empty() || k == order.front();
+    stays[k] = why.empty() || k == shortest;
     if (stays[k]) continue;
     spent_s -= expected[k].run_s.value_or(0);
     Record& row = rows.emplace_back(Advice{planned[k], why, ""}).record;

@@ -43,12 +43,13 @@ constexpr const char* own_body_methods = "HYBRID,P2";
 std::vector<Method> other_programs(const Options& options) {
   std::vector<Method> methods;
   for (const std::filesystem::path& file : options.externals) {
-    for (const Declaration& of_value : for_every_value(read_declaration(file)))
-      methods.push_back(external_method(of_value, options.memory_limit_bytes));
-    const auto same = [&](const Method& m) { return m.name == methods.back().name; };
-    if (std::ranges::count_if(methods, same) > 1)
-      throw UsageError(fmt::format("--external: {}: another file declares {} (allowed: one)",
-                                   file.string(), methods.back().name));
+    for (const Declaration& of_value : for_every_value(read_declaration(file))) {
+      Method method = external_method(of_value, options.memory_limit_bytes);
+      if (std::ranges::count(methods, method.name, &Method::name) > 0)
+        throw UsageError(fmt::format("--external: {}: another file declares {} (allowed: one)",
+                                     file.string(), method.name));
+      methods.push_back(std::move(method));
+    }
   }
   return methods;
 }

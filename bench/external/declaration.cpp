@@ -164,7 +164,7 @@ Declaration read_declaration(const std::filesystem::path& file) {
       value.fail("one name of a to z and _ that is no other placeholder, a list of numbers > 0");
     declaration.parameter = name;
     for (const Json& one : given[name])
-      declaration.values.push_back(fmt::format("{:g}", one.get<double>()));
+      declaration.values.push_back(fmt::format("{}", one.get<double>()));
     for (auto it = declaration.values.begin(); it != declaration.values.end(); ++it)
       if (std::find(declaration.values.begin(), it, *it) != it)
         value.refuse(*it, "every value once");

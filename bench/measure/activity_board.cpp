@@ -48,16 +48,23 @@ ActivityBoard::ActivityBoard() {
 
 ActivityBoard::~ActivityBoard() { munmap(page_, sizeof(Page)); }
 
-void ActivityBoard::begins(Activity activity) {
+ActivityBoard::Interrupted ActivityBoard::begins(Activity activity) {
+  const Interrupted outer{this->activity(), now_ns() - page_->began_ns};
+  if (is_run(outer.activity)) page_->in_runs_ns += outer.ran_ns;
   beat();
   page_->began_ns = now_ns();
   page_->activity = static_cast<int>(activity);
+  return outer;
 }
 
-void ActivityBoard::ends() {
+void ActivityBoard::ends() { ends_within({Activity::none, 0}); }
+
+void ActivityBoard::ends_within(const Interrupted& outer) {
   if (is_run(activity())) page_->in_runs_ns += now_ns() - page_->began_ns;
+  if (is_run(outer.activity)) page_->in_runs_ns -= outer.ran_ns;  // counted again from here on
   beat();
-  page_->activity = static_cast<int>(Activity::none);
+  page_->began_ns = now_ns() - outer.ran_ns;
+  page_->activity = static_cast<int>(outer.activity);
 }
 
 void ActivityBoard::beat() { page_->beat_ns = now_ns(); }

@@ -36,8 +36,14 @@ class ActivityBoard : public StageObserver {
   ActivityBoard(const ActivityBoard&) = delete;
   ActivityBoard& operator=(const ActivityBoard&) = delete;
 
-  void begins(Activity activity);
+  struct Interrupted {  // what another activity began in
+    Activity activity;
+    std::int64_t ran_ns;
+  };
+  Interrupted begins(Activity activity);
   void ends();
+  // Ends the activity; the interrupted one goes on, without the time between.
+  void ends_within(const Interrupted& outer);
   void begins(Stage stage) override;
   void ends(Stage stage) override;
 
@@ -58,20 +64,21 @@ class ActivityBoard : public StageObserver {
   Page* page_;
 };
 
-// board may be null.
+// board may be null. Scopes nest: steps of a path are verified within the run.
 class ActivityScope {
  public:
   ActivityScope(ActivityBoard* board, Activity activity) : board_(board) {
-    if (board_ != nullptr) board_->begins(activity);
+    if (board_ != nullptr) outer_ = board_->begins(activity);
   }
   ~ActivityScope() {
-    if (board_ != nullptr) board_->ends();
+    if (board_ != nullptr) board_->ends_within(outer_);
   }
   ActivityScope(const ActivityScope&) = delete;
   ActivityScope& operator=(const ActivityScope&) = delete;
 
  private:
   ActivityBoard* board_;
+  ActivityBoard::Interrupted outer_{};
 };
 
 }  // namespace airybench

@@ -120,8 +120,10 @@ Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& co
   if (system.problem->later_steps.empty()) return solve_load_case(solve, system, control);
   const std::shared_ptr<const Problem> first = system.problem;
   Solution path;
+  int before_last = 0;
   Solution last = solve_load_steps(solve, system, control,
                                    [&](int step, const DualSystem& posed, const Solution& answer) {
+                                     before_last = step;
                                      take_step(step == 0, step_prefix(step, *first), answer, path);
                                      if (!visit) return;
                                      const auto start = std::chrono::steady_clock::now();
@@ -129,6 +131,8 @@ Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& co
                                      watched_s += seconds_since(start);
                                    });
   hand_over(path, last);
+  if (last.done_fraction)
+    last.done_fraction = (before_last + *last.done_fraction) / count_of_steps(*first);
   return last;
 }
 

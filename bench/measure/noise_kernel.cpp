@@ -97,13 +97,18 @@ double run_noise_kernel(int threads) {
   std::barrier all_ready(threads);
   std::vector<double> seconds(static_cast<std::size_t>(threads));
   std::vector<std::jthread> workers;
-  for (double& own : seconds)
-    workers.emplace_back([&all_ready, &own] {
-      const std::unique_ptr<Work> work(new Work);
-      timed_pass(*work);
-      all_ready.arrive_and_wait();
-      own = timed_pass(*work);
-    });
+  try {
+    for (double& own : seconds)
+      workers.emplace_back([&all_ready, &own] {
+        const std::unique_ptr<Work> work(new Work);
+        timed_pass(*work);
+        all_ready.arrive_and_wait();
+        own = timed_pass(*work);
+      });
+  } catch (const std::system_error&) {  // the others would wait for those that did not start
+    for (std::size_t k = workers.size(); k < seconds.size(); ++k) all_ready.arrive_and_drop();
+    throw;
+  }
   workers.clear();  // joins
   return *std::max_element(seconds.begin(), seconds.end());
 }

@@ -232,8 +232,10 @@ std::vector<ProblemArray> contact_arrays(const contact::Problem& problem,
                                          const Eigen::VectorXd& answer) {
   const ContactPoints& points = problem.points;
   std::vector<ProblemArray> arrays = {
-      {"D", "mm/N", "compliance, symmetric positive definite: u_C = D F_C - G",
-       problem.is_dense() ? ProblemArray::Values(problem.D) : problem.rows, true},
+      {"D", "mm/N",
+       problem.is_symmetric ? "compliance, symmetric positive definite: u_C = D F_C - G"
+                            : "compliance, not symmetric: u_C = D F_C - G",
+       problem.is_dense() ? ProblemArray::Values(problem.D) : problem.rows, problem.is_symmetric},
       {"G", "mm", "-G are the contact displacements without contact forces",
        written_out(problem.G, points.size())}};
   std::ranges::move(contact_law_arrays(points), std::back_inserter(arrays));

@@ -249,7 +249,7 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   if (exported.airy) exported.append(airy_arrays(assemble(posed.body())));
   Json answer = Json::object();
   Reference reference;
-  if (contact || !exported.airy) {
+  if (contact || fclib) {
     const DualSystem points = assemble(posed.body(), Blocks::contact_points);
     reference = reference_of(points, exported.title);
     answer = {{"F_C_error_estimate", reference.error_estimate},
@@ -261,7 +261,8 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   if (!fclib && !exported.airy)
     result.notes.push_back(
         joins_bodies ? "only the bodies and the condensed problem: they press on each other"
-                     : "only the body and the condensed problem: " + why_no_airy);
+        : contact    ? "only the body and the condensed problem: " + why_no_airy
+                     : "only the body: " + why_no_airy);
   if (!contact) result.notes.emplace_back("no condensed problem: there is no contact");
   if (!problem.later_steps.empty())
     result.notes.push_back(

@@ -80,7 +80,6 @@ LineSplitter::LineSplitter(std::string file, Take take)
     : file_(std::move(file)), take_(std::move(take)) {}
 
 void LineSplitter::add(std::string_view part) {
-  constexpr std::size_t longest = std::size_t{16} << 20;
   constexpr std::int64_t most = 1'000'000;
   const auto refuse = [&](const char* what) {
     throw FileError(fmt::format("{}:{}: {}", file_, line_.number, what));
@@ -89,7 +88,7 @@ void LineSplitter::add(std::string_view part) {
     const std::size_t end = part.find('\n');
     ends = end != part.npos;
     text_ += part.substr(0, end);
-    if (text_.size() > longest) refuse("a line longer than 16 MiB (allowed: up to 16 MiB)");
+    if (text_.size() > longest_line) refuse("a line longer than 16 MiB (allowed: up to 16 MiB)");
     if (line_.number > most) refuse("more than a million lines (allowed: up to a million)");
     if (!ends) return;
     part.remove_prefix(end + 1);

@@ -37,6 +37,8 @@ class Journal {
   std::int64_t end_ = 0;
 };
 
+inline constexpr std::size_t longest_line = std::size_t{16} << 20;
+
 // Splits text that comes in parts into its complete lines.
 class LineSplitter {
  public:

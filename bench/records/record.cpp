@@ -61,7 +61,7 @@ class RecordParser : public Json::json_sax_t {
   bool string(string_t& value) override { return add(std::move(value)); }
   bool binary(binary_t& value) override { return add(std::move(value)); }
   bool start_object(std::size_t) override {
-    if (in_record_) return open(Json::object());
+    if (in_record_ || !open_.empty()) return open(Json::object());
     return in_record_ = true;
   }
   bool start_array(std::size_t) override { return open(Json::array()); }

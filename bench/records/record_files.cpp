@@ -163,6 +163,9 @@ Record RecordFiles::append(Record record) {
   const Json json = to_json(record);
   record = record_of(json, "its record");
   const std::string name = name_of(record).text(), text = json_text(json);
+  if (text.size() > longest_line)
+    throw RecordError(fmt::format("its record has {} MiB (allowed: up to {}); fewer repetitions?",
+                                  text.size() >> 20, longest_line >> 20));
   if (!journal_.is_open() || ends_torn_ || lines_.contains(name)) {
     rewrite_with(name, text);
   } else {

@@ -34,12 +34,14 @@ constexpr Quantity time_quantity = {
 constexpr Quantity tuning_quantity = {
     [](const Record& r) { return r.tuning_s.value_or(0) > 0 ? r.tuning_s : std::nullopt; }, 0.15,
     0.15, 0.3, 0.7};
-constexpr Quantity heap_quantity = {[](const Record& r) {
-                                      const auto bytes =
-                                          static_cast<double>(r.peak_heap_bytes.value_or(0));
-                                      return bytes > 0 ? std::optional(bytes) : std::nullopt;
-                                    },
-                                    0.01, 0.1, 0.1, 0.35};
+constexpr Quantity heap_quantity = {
+    [](const Record& r) {
+      // A timeout's is a lower bound.
+      const auto bytes =
+          r.status == Status::timeout ? 0. : static_cast<double>(r.peak_heap_bytes.value_or(0));
+      return bytes > 0 ? std::optional(bytes) : std::nullopt;
+    },
+    0.01, 0.1, 0.1, 0.35};
 
 struct Variant {
   std::string family, method, stop, knob;

@@ -262,12 +262,15 @@ void IsolatedScene::prepare_all() {
   const auto start = std::chrono::steady_clock::now();
   for (int attempt = 1;; ++attempt) {
     bool was_suspended = false;
+    const std::size_t broken = broken_assemblies_.size();
     for (std::size_t k = 0; k < cases_.size(); ++k)
       if (why_skipped(cases_[k]->posed.problem, cases_[k]->method).empty()) {
         prepare(k);
         was_suspended |= process_ != nullptr && process_->was_suspended();
       }
-    if (!was_suspended || attempt == most_tries) break;
+    // Another process for the others, if the last one's assembly has ended this.
+    const bool is_lost = process_ == nullptr && broken_assemblies_.size() > broken;
+    if (!is_lost && (!was_suspended || attempt == most_tries)) break;
     process_.reset();  // it has timed the assembly
   }
   prepared_ = true;

@@ -35,6 +35,9 @@ Machine this_machine();
 class QuietLevel {
  public:
   void add(const std::vector<double>& passes_s);  // consecutive passes
+  void is_at_most(std::optional<double> seconds) {
+    if (seconds && !(level_ <= *seconds)) level_ = seconds;
+  }
   std::optional<double> seconds() const { return level_; }
 
  private:
@@ -51,7 +54,10 @@ class NoiseWatch {
   // most_noise: allowed noise of an attempt; empty: judge and repeat nothing.
   NoiseWatch(std::optional<double> most_noise, Machine machine);
 
-  void learn(const Record& record) { level_.add(record.noise_kernel_samples_s); }
+  void learn(const Record& record) {
+    level_.add(record.noise_kernel_samples_s);
+    level_.is_at_most(record.noise_quiet_s);
+  }
   void add_passes(int count, int threads, Record& record);
   bool is_due() const;
   // Waits for quiet, at most 2 s; all waits at most 10 s plus a tenth of the run's time.

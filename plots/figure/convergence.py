@@ -39,8 +39,12 @@ def table_of(rows: list[Row]) -> str:
 
 
 def points_of(rows: list[Row], scene: str) -> dict[str, list[Row]]:
-    """Body -> a row per mesh, the coarsest first. The error is of mesh and scene: any row has it."""
-    known = [row for row in rows if row.scene == scene and row.error_discretisation and row.n_phi]
+    """Body -> a row per mesh, the coarsest first. The error is of mesh and scene: any row of the lowest
+    degree has it, but those of other programs have their own."""
+    known = [row for row in rows if row.scene == scene and row.error_discretisation and row.n_phi
+             and not row.program]
+    lowest = min((row.degree for row in known), default=1)
+    known = [row for row in known if row.degree == lowest]
     points = []
     for own in by_mesh(known).values():
         bounded = [row for row in own if None not in (row.lower_bound_Nmm, row.upper_bound_Nmm)]

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from matplotlib.figure import Figure
 
 from drawing import Drawing, log_limits, log_log, sheet, side_by_side
+from figure.adaptive import loops_in
 from labels import Labels
 from records import Row
 from selection import by_body, grouped, kind_of, line_of, of_scene, order
@@ -54,9 +55,10 @@ def curves_of(rows: list[Row]) -> list[Curve]:
     return curves
 
 
-def loop_of(rows: list[Row]) -> list[tuple[float, float]]:
-    levels = {row.n_phi: (row.adapt_time_s, row.error_total) for row in rows if row.adapt_time_s}
-    return [levels[size] for size in sorted(levels)]
+def loops_of(rows: list[Row]) -> list[list[tuple[float, float]]]:
+    adapted = [row for row in rows if row.adapt_time_s and row.stop == "target"]
+    return [[(row.adapt_time_s, row.error_total) for row in sorted(loop, key=lambda row: row.n_phi)]
+            for loop in loops_in(adapted).values()]
 
 
 def why(row: Row) -> str:
@@ -78,8 +80,8 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
                          for row in curve.rows], 1.4)
     panels = side_by_side(figure, bodies, LEFT, TOP, HEIGHT, GAP)
     for axes, (body, own) in zip(panels, bodies.items()):
-        loop = loop_of(own)
-        times = [row.time_s for row in own] + [time for time, _ in loop]
+        loops = loops_of(own)
+        times = [row.time_s for row in own] + [time for loop in loops for time, _ in loop]
         log_log(axes, xlim=log_limits(times, 1.5), ylim=errors, xlabel="time of one solve, s",
                 ylabel="total error of the stresses" if axes is panels[0] else "")
         labels = Labels(axes)
@@ -88,10 +90,10 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
             labels.line(curve.words, *line_of(curve.rows, "time_s", "error_total"), look.colour,
                         linestyle=curve.dashes, linewidth=1.4, marker=look.marker, markersize=5,
                         markerfacecolor=look.colour if curve.filled else "white")
-        if loop:
+        for loop in loops:
             axes.plot(*zip(*loop), color="0.45", linewidth=0.8)
             labels.avoid(*zip(*loop))
         labels.name_lines(weight="bold")
-        if loop:
+        for loop in loops:
             labels.add(LOOP, *zip(*loop[::-1]), color="0.35")
     return figure

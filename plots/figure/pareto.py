@@ -63,7 +63,7 @@ def is_other_value(row: Row) -> bool:
 
 def highest_of(rows: list[Row]) -> float:
     """The largest total error drawn: at most 1, beyond which an answer is useless."""
-    floor = max((row.error_discretisation or 0 for row in rows), default=0)
+    floor = max((row.error_discretisation or 0 for row in rows if not row.program), default=0)
     return min(max(HIGHEST, OVER_FLOOR * floor), 1)
 
 
@@ -219,9 +219,11 @@ def draw_front(axes: Axes, labels: Labels, line: tuple[list[float], list[float]]
 
 
 def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
-    """The meshes' discretisation errors; close lines share a label."""
+    """The meshes' discretisation errors, of the lowest degree; close lines share a label."""
     right = axes.get_xlim()[1]
-    floors = {row.mesh: row.error_discretisation for row in rows if row.error_discretisation}
+    known = [row for row in rows if row.error_discretisation and not row.program]
+    lowest = min((row.degree for row in known), default=1)
+    floors = {row.mesh: row.error_discretisation for row in known if row.degree == lowest}
     groups: list[list[str]] = []
     for mesh in sorted(floors, key=floors.get, reverse=True):
         axes.axhline(floors[mesh], color="0.55", linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)

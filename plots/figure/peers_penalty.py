@@ -22,10 +22,16 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     run = of_scene([row for row in rows if row.stop == "target" and row.study in ("", "error") and not row.knob])
     known = [row for row in run if row.completed and row.time_s and error_of(row)
              and (is_compared(row) or value_of(row) is not None)]
-    meshes = [own for own in by_mesh(known).values() if sweeps_of(own)][:PANELS]
+    meshes = [drawn_of(own) for own in by_mesh(known).values() if sweeps_of(own)][:PANELS]
     if meshes:
         yield Drawing("peers_penalty", [row for own in meshes for row in own], draw, table_of,
                       options=dict(run=run))
+
+
+def drawn_of(rows: list[Row]) -> list[Row]:
+    """Not the only value of a program's parameter."""
+    swept = {row.line for own in sweeps_of(rows).values() for row in own}
+    return [row for row in rows if row.line in swept or is_compared(row)]
 
 
 def is_compared(row: Row) -> bool:

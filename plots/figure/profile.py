@@ -205,6 +205,8 @@ def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
            + {None: ".", True: "; here it does, at factor 2, without the leading method.",
               False: "; here it does not, at factor 2, without the leading method."}[
                   order_depends_on_best(shown[0].values)])
+    if all(profile.quantity != "peak_heap_bytes" for profile in shown):
+        yield "No profile of the peak heap: not all solved cases have one."
     if len(shown[0].resampled) > 1:
         yield (f"Bands: {100 * CONFIDENCE:.0f} % of {RESAMPLES} bootstrap "
                "resamples of each case's repetitions; they do not cover the choice of cases.")

@@ -160,7 +160,7 @@ struct ContactOptions {
 struct RunControl {
   Deadline deadline;
   bool histories = false;  // keep iteration histories
-  bool condition = false;  // estimate it, where a factor is at hand: a few more solves
+  bool condition = false;  // estimate it, where the method does: a few more solves
   bool keep_body = false;  // for other load cases; the deadline then is one for all of them
   int threads = 1;         // for right-hand sides in parallel
   Stop stop = Stop::target;

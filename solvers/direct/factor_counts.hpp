@@ -5,7 +5,7 @@
 
 namespace airybench {
 
-// Of a library's factor after the solves, whose workspace stays and counts.
+// Of a library's factor as it stands: workspace that solves leave counts afterwards.
 template <typename Factor>
 void count_factor(const Factor& factor, Solution& solution) {
   solution.storage[MemoryOwner::factor] = factor.bytes();

@@ -80,7 +80,8 @@ struct SkylineFactor {
   }
 };
 
-// Throws Breakdown with row and value at a pivot that is zero or not finite; TimeoutReached.
+// Throws Breakdown with value and place, in the order of its panel, at a pivot that is zero or not
+// finite; TimeoutReached.
 SkylineFactor factor_ldlt(SkylineProfile profile, const Eigen::SparseMatrix<double>& lower,
                           const Deadline& deadline = {});
 

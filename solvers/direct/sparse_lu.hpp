@@ -1,5 +1,5 @@
-// Sparse LU with threshold pivoting by UMFPACK (Davis 2004, doi:10.1145/992200.992206), in METIS'
-// order of nested dissection, and refined.
+// Sparse LU with threshold pivoting by UMFPACK (Davis 2004, doi:10.1145/992200.992206), in
+// METIS' order of nested dissection, or AMD's where rows are short, and refined.
 #pragma once
 
 #include "assembly/contact_problem.hpp"

@@ -12,8 +12,8 @@ namespace airybench {
 
 inline constexpr int conjugate_gradient_vectors = 5;  // per lane: x, r, z, p, S p
 
-// lower: lower triangle of S. Nothing is allocated inside an iteration. Throws Breakdown (pᵀS p or
-// rᵀz not positive, or not finite), TimeoutReached.
+// lower: lower triangle of S. Nothing is allocated inside an iteration. Throws Breakdown (pᵀS p
+// not positive, rᵀz negative, or not finite), TimeoutReached.
 KrylovSummary solve_by_conjugate_gradients(const SparseColumns& lower,
                                            const Preconditioner& preconditioner,
                                            const RightHandSides& sides,

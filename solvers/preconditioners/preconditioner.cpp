@@ -49,8 +49,8 @@ std::optional<Found> find(const PreconditionerKind& kind, std::string_view name)
   for (const std::string& listed : kind.numbers)
     if (number_after("", listed) == number) return Found{&kind, *number, kind.prefix + listed};
   if (kind.allows == nullptr || !kind.allows(*number)) return {};
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, *number).ptr;
+  char text[400];  // also of 1e-300
+  const auto end = std::to_chars(text, text + sizeof text, *number, std::chars_format::fixed).ptr;
   return Found{&kind, *number, kind.prefix + std::string(text, end)};
 }
 

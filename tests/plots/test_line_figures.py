@@ -135,8 +135,8 @@ class OverviewTest(unittest.TestCase):
         curves = overview_figure.curves_of(drawing.rows)
         self.assertEqual({curve.words for curve in curves},
                          {"ALM, the paper’s stop", "ALM to 1e-6", "HYBRID, adapted meshes"})
-        self.assertEqual(overview_figure.loop_of(drawing.rows),
-                         [(0.03, 0.04), (0.06, 0.02), (0.12, 0.01)])
+        self.assertEqual(overview_figure.loops_of(drawing.rows),
+                         [[(0.03, 0.04), (0.06, 0.02), (0.12, 0.01)]])
         words = drawn.words_of(drawing.figure())
         for curve in curves:
             self.assertIn(curve.words, words)

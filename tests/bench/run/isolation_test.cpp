@@ -352,6 +352,34 @@ TEST_F(Isolation, WhatBreaksAnAssemblyIsTheRecordOfEveryCaseThatNeedsIt) {
   if (heap::is_active()) expect_all(records_if(exit_without_memory), Status::out_of_memory);
 }
 
+TEST_F(Isolation, AnAssemblyThatBreaksLastLeavesTheOthers) {
+  struct Calls {
+    pid_t scene = 0;
+    int count = 0;
+  };
+  const auto calls = std::make_shared<Calls>();  // every process has its own
+  const std::filesystem::path counted = folder_ / "calls";
+  int most = std::numeric_limits<int>::max();
+  auto problem = std::make_shared<Problem>(*posed_.body());
+  problem->loads.displacement_mm = [calls, counted, &most, main = getpid()](
+                                       const Eigen::Vector2d&, int) -> Eigen::Vector2d {
+    if (calls->scene == 0 && getpid() != main) calls->scene = getpid();
+    if (getpid() == calls->scene) {
+      if (++calls->count > most) die_of(SIGSEGV);
+      testing::write_text(counted, std::to_string(calls->count));
+    }
+    return Eigen::Vector2d::Zero();
+  };
+  posed_.problem = problem;
+  EXPECT_EQ(run(select_methods("HYBRID")).front().status, Status::ok);
+  most = std::stoi(testing::text_of(counted));  // what follows is 3STEPCG's assembly
+  const std::vector<Record> records = run(select_methods("HYBRID,3STEPCG:DTIC4"));
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records.front().status, Status::ok) << records.front().status_reason;
+  EXPECT_EQ(records.back().status, Status::crashed) << records.back().status_reason;
+  EXPECT_EQ(records.back().ended_in, "assembly");
+}
+
 TEST_F(Isolation, AKillFromOutsideLeavesNothingOut) {
   if (!oom_kills()) return;
   auto problem = std::make_shared<Problem>(*posed_.body());

@@ -1,8 +1,10 @@
 // What is reported of a process that has ended.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <csignal>
 #include <new>
+#include <thread>
 
 #include "bench/run/isolated_scene.hpp"
 
@@ -35,6 +37,39 @@ TEST(Obituary, OfOneWithoutMemoryOutsideOfARunIsNoCrash) {
     board.begins(Activity::detail_run);
     EXPECT_EQ(obituary_of(child.end(), board, Options()).status, Status::out_of_memory);
   }
+}
+
+// A path's steps are verified within its run, which may hang afterwards.
+TEST(ActivityBoard, AnActivityWithinARunInterruptsIt) {
+  ActivityBoard board;
+  const auto pass = [](double ms) {
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
+  };
+  {
+    const ActivityScope run(&board, Activity::detail_run);
+    pass(20);
+    {
+      const ActivityScope within(&board, Activity::verification);
+      EXPECT_EQ(board.activity(), Activity::verification);
+      EXPECT_GE(board.seconds_in_runs(), 0.02);
+      pass(60);
+    }
+    EXPECT_EQ(board.activity(), Activity::detail_run);
+    EXPECT_GE(board.seconds(), 0.02);
+    pass(20);
+  }
+  EXPECT_EQ(board.activity(), Activity::none);
+  EXPECT_GE(board.seconds_in_runs(), 0.04);
+  const auto verification = [&](auto inside) {
+    const double before_s = board.seconds_in_runs();
+    inside();
+    return board.seconds_in_runs() - before_s;
+  };
+  EXPECT_EQ(verification([&] {
+              const ActivityScope alone(&board, Activity::verification);
+              pass(5);
+            }),
+            0);
 }
 
 }  // namespace
