@@ -116,6 +116,10 @@ TEST(Resume, ALineHalfWrittenIsRunAgain) {
   EXPECT_EQ(result.code, 0) << result.err;
   expect_found(result.out, "5 of these 6 records were there already, and the start of another");
   EXPECT_EQ(by_name(bench.records()), whole);
+  // With the times of then: they were not measured again.
+  const std::string five = text.substr(0, text.rfind('\n', text.size() - 2) + 1);
+  EXPECT_EQ(std::ranges::count(five, '\n'), 5);
+  EXPECT_EQ(bench.content("o/records.jsonl").substr(0, five.size()), five);
 }
 
 TEST(Resume, AfterAFullDisk) {

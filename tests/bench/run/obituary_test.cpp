@@ -42,6 +42,7 @@ TEST(Obituary, OfOneWithoutMemoryOutsideOfARunIsNoCrash) {
 // A path's steps are verified within its run, which may hang afterwards.
 TEST(ActivityBoard, AnActivityWithinARunInterruptsIt) {
   ActivityBoard board;
+  const auto start = std::chrono::steady_clock::now();
   const auto pass = [](double ms) {
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
   };
@@ -60,6 +61,8 @@ TEST(ActivityBoard, AnActivityWithinARunInterruptsIt) {
   }
   EXPECT_EQ(board.activity(), Activity::none);
   EXPECT_GE(board.seconds_in_runs(), 0.04);
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - start;
+  EXPECT_LE(board.seconds_in_runs(), all.count() - 0.06);
   const auto verification = [&](auto inside) {
     const double before_s = board.seconds_in_runs();
     inside();

@@ -122,6 +122,7 @@ void compare(const std::string& name, const Expected& expected, const Record& re
   const std::string what =
       fmt::format("{}: {} ({}), was {}; {}", name, fmt::join(found.row(), " "),
                   record.status_reason, fmt::join(expected.row(), " "), how_to_update);
+  EXPECT_EQ(found.outcome == "unstressed", expected.outcome == "unstressed") << what;
   const bool close = expected.is_close_call();
   EXPECT_GE(rank(found.outcome), close ? rank("inaccurate") : rank(expected.outcome)) << what;
   if (close)
