@@ -44,6 +44,14 @@ def of_scene(rows: list[Row]) -> list[Row]:
     return [row for row in rows if row.scene == scene]
 
 
+def of_mesh(rows: list[Row]) -> list[Row]:
+    """Rows whose error_discretisation is that of mesh and scene: of the lowest degree, and not of other
+    programs, which have their own."""
+    known = [row for row in rows if row.error_discretisation and not row.program]
+    lowest = min((row.degree for row in known), default=1)
+    return [row for row in known if row.degree == lowest]
+
+
 def tier(row: Row) -> int:
     """0: in the paper, 1: a method with its own name, 2: a variant, 3: a preconditioner."""
     return 0 if row.in_paper else 1 if ":" not in row.method else 3 if row.preconditioner else 2

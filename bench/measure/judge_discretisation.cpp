@@ -182,13 +182,6 @@ bool is_unloaded(const std::vector<JudgedStep>& steps, const JudgedStep& step) {
   return steps.size() > 1 && step.seen().strain_energy_Nmm <= rounding * largest;
 }
 
-std::optional<double> error_before_the_last(const Record& record, std::size_t step) {
-  const auto error = record.steps[step].find("error_discretisation");
-  return error != record.steps[step].end() && error->is_number()
-             ? std::optional(error->get<double>())
-             : std::nullopt;
-}
-
 }  // namespace
 
 // An error of 100 % is not ok. Gives a reason if a displacement method has no error.
@@ -213,7 +206,8 @@ void Judge::judge_discretisation(const Method& method, const std::vector<JudgedS
   };
   for (std::size_t k = 0; k + 1 < record.steps.size(); ++k)
     if (!is_unloaded(steps, steps[k]) &&
-        is_refused(error_before_the_last(record, k), prefix_of(static_cast<std::int64_t>(k))))
+        is_refused(number_of_step(record.steps[k], "error_discretisation"),
+                   prefix_of(static_cast<std::int64_t>(k))))
       return;
   if (is_unloaded(steps, steps.back())) {
     record.error_discretisation.reset();

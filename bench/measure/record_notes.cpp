@@ -101,9 +101,8 @@ TimedRun timed_run_of(const Json& json) {
           json.at("processor_s").get<double>()};
 }
 
-namespace {
-
-void take_other_end(const TimedRun& run, const char* which, Record& record) {
+bool ended_alike(const TimedRun& run, const char* which, Record& record) {
+  if (run.status == record.claimed_status) return true;
   record.status = run.status;
   record.status_reason = fmt::format("in a {} run: {}", which, run.message);
   record.signal = run.signal;
@@ -117,25 +116,18 @@ void take_other_end(const TimedRun& run, const char* which, Record& record) {
        {"peak_heap_bytes", "peak_rss_bytes", "memory_by_owner", "memory_by_stage",
         "memory_counts_differ", "memory_count_ratio", "heap_allocations", "heap_allocated_bytes"})
     field_named(name).clear(record);
+  return false;
 }
-
-}  // namespace
 
 void add_run(const TimedRun& run, Record& record) {
   if (run.runs_s > 0) record.runs_s = run.runs_s;
-  if (run.status != record.claimed_status) return take_other_end(run, "timed", record);
+  if (!ended_alike(run, "timed", record)) return;
   record.samples_s.push_back(run.time_s);
   record.stage_samples.push_back(run.stages);
   if (run.program_s > 0) {
     record.program_samples_s.push_back(run.program_s);
     record.processor_samples_s.push_back(run.processor_s);
   }
-}
-
-bool ended_alike(const TimedRun& memory_run, Record& record) {
-  if (memory_run.status == record.claimed_status) return true;
-  take_other_end(memory_run, "memory", record);
-  return false;
 }
 
 void note(const Solution& solution, Record& record) {

@@ -39,10 +39,11 @@ struct TimedRun {
 Json to_json(const TimedRun& run);
 TimedRun timed_run_of(const Json& json);
 
-// A status other than the detail run's becomes the record's, and clears samples and memory figures.
+// Whether it ended like the detail run. Another status becomes the record's, and clears samples and
+// memory figures. which: "timed", "memory".
+bool ended_alike(const TimedRun& run, const char* which, Record& record);
+// A timed run's sample, if it ended alike.
 void add_run(const TimedRun& run, Record& record);
-// The same of the memory run, which gives no sample. Returns whether it ended like the detail run.
-bool ended_alike(const TimedRun& memory_run, Record& record);
 
 // What contact faces press on, for messages.
 inline const char* obstacle_of(const Problem& problem) {

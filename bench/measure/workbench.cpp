@@ -92,7 +92,7 @@ Workbench::Examination Workbench::examine(const Method& method,
 void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
   malloc_trim(0);
   const Run run = solve(choice, blocks(method), Activity::memory_run);
-  if (!ended_alike(timed(run), record)) return;
+  if (!ended_alike(timed(run), "memory", record)) return;
   note_memory(run, record);
   record.instructions = run.instructions;
 }

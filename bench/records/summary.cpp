@@ -94,19 +94,14 @@ std::string outcome_of(const Record& r) {
   const auto is_met = [&](const std::optional<double>& error) {
     return !error || (r.target_error && *error <= *r.target_error);
   };
-  const auto of_step = [](const Json& step, const char* key) {
-    const auto found = step.find(key);
-    return found != step.end() && found->is_number() ? std::optional(found->get<double>())
-                                                     : std::nullopt;
-  };
   const bool mesh_is_off =
       is_all_error(r.error_discretisation) || std::ranges::any_of(r.steps, [&](const Json& step) {
-        return is_all_error(of_step(step, "error_discretisation"));
+        return is_all_error(number_of_step(step, "error_discretisation"));
       });
   const bool is_of_the_mesh = mesh_is_off && is_met(r.error_stress) && is_met(r.error_force) &&
                               is_met(r.equilibrium_residual) && is_met(r.natural_map_residual) &&
                               std::ranges::all_of(r.steps, [&](const Json& step) {
-                                const std::optional<double> error = of_step(step, "error");
+                                const auto error = number_of_step(step, "error");
                                 return error && is_met(error);
                               });
   if (r.status == Status::inaccurate && r.claimed_status == Status::ok && !is_of_the_mesh)
@@ -119,15 +114,17 @@ bool times_tie(const Record& a, const Record& b) {
          *b.time_low_s <= *a.time_high_s;
 }
 
+std::optional<double> number_of_step(const Json& step, const char* key) {
+  const auto found = step.find(key);
+  return found != step.end() && found->is_number() ? std::optional(found->get<double>())
+                                                   : std::nullopt;
+}
+
 std::optional<double> worst_error_total(const Record& record) {
   std::optional<double> worst = record.error_total;
   for (const Json& step : record.steps)
-    if (const auto of_mesh = step.find("error_discretisation");
-        of_mesh != step.end() && of_mesh->is_number()) {
-      const Json& error = step.at("error");
-      const double total = of_mesh->get<double>() + (error.is_number() ? error.get<double>() : 0);
-      worst = std::max(worst.value_or(0), total);
-    }
+    if (const auto of_mesh = number_of_step(step, "error_discretisation"))
+      worst = std::max(worst.value_or(0), *of_mesh + number_of_step(step, "error").value_or(0));
   return worst;
 }
 

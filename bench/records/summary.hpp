@@ -16,6 +16,8 @@ std::string outcome_of(const Record& record);
 bool times_tie(const Record& a, const Record& b);
 inline constexpr int fewest_to_tell_apart =
     5;  // two samples of five differ at p < 0.01, of four never
+// Of an element of Record::steps; empty: it has none.
+std::optional<double> number_of_step(const Json& step, const char* key);
 // error_total, of a path of load steps the largest of its steps'.
 std::optional<double> worst_error_total(const Record& record);
 // A total error of 100 % and more. Where bodies miss each other on the mesh it is 1 up to rounding.

@@ -11,6 +11,7 @@
 // attempts does not depend on their results.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <functional>
@@ -35,9 +36,7 @@ Machine this_machine();
 class QuietLevel {
  public:
   void add(const std::vector<double>& passes_s);  // consecutive passes
-  void is_at_most(std::optional<double> seconds) {
-    if (seconds && !(level_ <= *seconds)) level_ = seconds;
-  }
+  void is_at_most(double seconds) { level_ = std::min(level_.value_or(seconds), seconds); }
   std::optional<double> seconds() const { return level_; }
 
  private:
@@ -56,7 +55,7 @@ class NoiseWatch {
 
   void learn(const Record& record) {
     level_.add(record.noise_kernel_samples_s);
-    level_.is_at_most(record.noise_quiet_s);
+    if (record.noise_quiet_s) level_.is_at_most(*record.noise_quiet_s);
   }
   void add_passes(int count, int threads, Record& record);
   bool is_due() const;

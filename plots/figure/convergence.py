@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from drawing import PAGE_WIDTH, Drawing, axes_at, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from records import Row
-from selection import by_body, by_mesh, exponent, scene_of
+from selection import by_body, by_mesh, exponent, of_mesh, scene_of
 from words import columns_of, csv_of, percent, plain
 
 LEFT, TOP, HEIGHT, BELOW, BOTTOM, GAP = 0.72, 0.4, 3.8, 2.6, 0.55, 0.85  # inches
@@ -39,12 +39,8 @@ def table_of(rows: list[Row]) -> str:
 
 
 def points_of(rows: list[Row], scene: str) -> dict[str, list[Row]]:
-    """Body -> a row per mesh, the coarsest first. The error is of mesh and scene: any row of the lowest
-    degree has it, but those of other programs have their own."""
-    known = [row for row in rows if row.scene == scene and row.error_discretisation and row.n_phi
-             and not row.program]
-    lowest = min((row.degree for row in known), default=1)
-    known = [row for row in known if row.degree == lowest]
+    """Body -> a row per mesh, the coarsest first. The error is of mesh and scene."""
+    known = of_mesh([row for row in rows if row.scene == scene and row.n_phi])
     points = []
     for own in by_mesh(known).values():
         bounded = [row for row in own if None not in (row.lower_bound_Nmm, row.upper_bound_Nmm)]

@@ -9,8 +9,8 @@ from drawing import PAGE_WIDTH, STOP, Drawing, log_limits, log_log, sheet, side_
 from figure.work_precision import AXES
 from labels import Labels
 from records import Row
-from selection import (by_body, front, given, grouped, is_paper_stop, kind_of, line_of, of_scene,
-                       value_of)
+from selection import (by_body, front, given, grouped, is_paper_stop, kind_of, line_of, of_mesh,
+                       of_scene, value_of)
 from words import (CASE, KNOB, csv_of, lacking, left_out, mebibytes, names_of, percent, plain, seconds, threads, width_of)
 
 LEFT, TOP, HEIGHT, GAP, BOTTOM = 0.72, 0.65, 3.5, 0.2, 0.45  # inches, of a body
@@ -221,9 +221,7 @@ def draw_front(axes: Axes, labels: Labels, line: tuple[list[float], list[float]]
 def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
     """The meshes' discretisation errors, of the lowest degree; close lines share a label."""
     right = axes.get_xlim()[1]
-    known = [row for row in rows if row.error_discretisation and not row.program]
-    lowest = min((row.degree for row in known), default=1)
-    floors = {row.mesh: row.error_discretisation for row in known if row.degree == lowest}
+    floors = {row.mesh: row.error_discretisation for row in of_mesh(rows)}
     groups: list[list[str]] = []
     for mesh in sorted(floors, key=floors.get, reverse=True):
         axes.axhline(floors[mesh], color="0.55", linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)

@@ -27,6 +27,13 @@ TEST(QuietLevel, IsTheSmallestThatLasts) {
   EXPECT_EQ(level.seconds(), 1);
   level.add(std::vector<double>(50, 3.0));
   EXPECT_EQ(level.seconds(), 1);
+  level.is_at_most(2);
+  EXPECT_EQ(level.seconds(), 1);
+  level.is_at_most(0.5);
+  EXPECT_EQ(level.seconds(), 0.5);
+  QuietLevel fresh;
+  fresh.is_at_most(0.5);
+  EXPECT_EQ(fresh.seconds(), 0.5);
 }
 
 TEST(Noise, IsSlownessOrScatter) {
@@ -62,6 +69,30 @@ Record timed(double time_s) {
   record.status = Status::ok;
   record.samples_s = {time_s, time_s};
   return record;
+}
+
+TEST(NoiseWatch, PassesOnOneThreadComeBeforeThoseOnSeveral) {
+  std::vector<int> threads;
+  NoiseWatch watch({}, {[&](int count) {
+                          threads.push_back(count);
+                          return 1.;
+                        },
+                        [](double) {}});
+  Record record = timed(9);
+  watch.add_passes(3, 2, record);
+  EXPECT_EQ(threads, (std::vector<int>{1, 1, 1, 2, 2, 2}));
+}
+
+TEST(NoiseWatch, ResumedItKnowsTheQuietLevelOfTheRecords) {
+  MadeUpMachine made_up;
+  made_up.pace_s = 1.2;
+  NoiseWatch watch(0.05, made_up.machine());
+  Record earlier = timed(9), record = timed(9);
+  earlier.noise_kernel_samples_s = {1.2, 1.2};
+  earlier.noise_quiet_s = 1;
+  watch.learn(earlier);
+  watch.add_passes(3, 1, record);
+  EXPECT_TRUE(watch.is_noisy(record));
 }
 
 TEST(NoiseWatch, KeepsTheLeastNoisyAttempt) {
