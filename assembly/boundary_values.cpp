@@ -1,6 +1,8 @@
 #include "assembly/boundary_values.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -74,6 +76,43 @@ void check_held(const PieceSupport& support) {
                        " (allowed: supports that hold it, or contact edges)");
 }
 
+// u0 may not jump where displacement edges meet: no field has such a jump and finite energy.
+// Rollers prescribe u_n alone, and rollers that are not parallel agree with any values.
+void check_agreement(const Mesh& mesh, const std::vector<BoundaryValues>& of_row) {
+  constexpr double rounding = 1e-9;
+  std::map<int, std::size_t> row_at;  // vertex -> the first displacement edge there
+  for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
+    if (mesh.boundary[row].role != BoundaryRole::displacement) continue;
+    for (const int vertex : mesh.boundary[row].vertices) {
+      const auto [first, is_first] = row_at.emplace(vertex, row);
+      if (is_first) continue;
+      const std::array rows = {first->second, row};
+      std::array<Eigen::Vector2d, 2> u, rolls_along;  // zero: held in both directions
+      for (const std::size_t k : {0U, 1U}) {
+        const BoundaryValues& own = of_row[rows[k]];
+        const auto [a, b] = mesh.boundary[rows[k]].vertices;
+        u[k] = own.displacement_mm->at(mesh.vertices[vertex]);
+        rolls_along[k] = own.support == BoundaryValues::Support::normal
+                             ? edge_frame(mesh.vertices[a], mesh.vertices[b]).tangent
+                             : Eigen::Vector2d(0, 0);
+      }
+      Eigen::Vector2d jump = u[1] - u[0];
+      const bool both_roll = !rolls_along[0].isZero(0) && !rolls_along[1].isZero(0);
+      const double sine =
+          rolls_along[0].x() * rolls_along[1].y() - rolls_along[0].y() * rolls_along[1].x();
+      if (both_roll && std::abs(sine) >= straight_roller) continue;
+      const Eigen::Vector2d& free = rolls_along[0].isZero(0) ? rolls_along[1] : rolls_along[0];
+      jump -= jump.dot(free) * free;
+      if (jump.norm() <= rounding * std::max(u[0].norm(), u[1].norm())) continue;
+      throw TransformError(boundary_label(mesh, mesh.boundary[rows[0]]) + " and " +
+                           boundary_label(mesh, mesh.boundary[rows[1]]) +
+                           ": displacement_mm: " + shown(u[0]) + " and " + shown(u[1]) +
+                           " at their common vertex " + shown(mesh.vertices[vertex]) +
+                           " (allowed: equal, of rollers along their normal)");
+    }
+  }
+}
+
 }  // namespace
 
 void check_values(const BoundaryConditions& conditions) {
@@ -113,6 +152,7 @@ void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displace
     rollers[row] = own.support == BoundaryValues::Support::normal;
     rolling |= rollers[row];
   }
+  check_agreement(mesh, *of_row);
   if (moved)
     loads.displacement_mm = [of_row](const Eigen::Vector2d& x, int row) {
       return (*of_row)[static_cast<std::size_t>(row)].displacement_mm->at(x);

@@ -192,6 +192,10 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
                            "at each other)");
     result.changes.inserted += matching.changes.inserted;
     result.changes.moved += matching.changes.moved;
+    for (const MatchingFace& face : faces)
+      result.changes.has_curves |= std::ranges::any_of(face.curve, [](const auto& of_row) {
+        return of_row.second && !std::holds_alternative<FlatWall>(*of_row.second);
+      });
     for (const int row : matching.split_rows) result.split_rows.push_back(row);
   }
   for (const ContactPair& pair : scene.contacts)

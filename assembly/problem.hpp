@@ -116,6 +116,7 @@ struct Problem {
   std::vector<int> opposite = {};
   struct Matching {  // of those edges: vertices of the mesh that were put in and moved for it
     int inserted = 0, moved = 0;
+    bool has_curves = false;  // edges stand for curves; the gap is known at three points of each
   } matching = {};
   // Load steps after this one, with the whole u0. Slip is measured from the previous step, so they
   // are posed one by one (load_steps.hpp).

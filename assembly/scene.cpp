@@ -8,6 +8,7 @@
 
 #include "assembly/contact_conditions.hpp"
 #include "assembly/edge_forces.hpp"
+#include "assembly/scene_errors.hpp"
 #include "support/lists.hpp"
 
 namespace airybench {
@@ -15,13 +16,6 @@ namespace {
 
 // Relative tolerance of a scene's geometry against the mesh.
 constexpr double geometry_tolerance = 1e-6;
-
-[[noreturn]] void fail(const Scene& scene, const std::string& key, const auto& value,
-                       const std::string& why) {
-  std::ostringstream line;
-  line << scene.source << ": " << key << ": " << value << " " << why;
-  throw SceneError(line.str());
-}
 
 void check_length(const Scene& scene, const std::string& key, std::optional<double> given,
                   double of_mesh, const Mesh& mesh) {
@@ -31,29 +25,40 @@ void check_length(const Scene& scene, const std::string& key, std::optional<doub
   fail(scene, key, *given, why.str());
 }
 
-auto of_scene(const Scene& scene, const std::string& key, auto change) {
-  try {
-    return change();
-  } catch (const TransformError& error) {
-    throw SceneError(scene.source + ": " + (key.empty() ? "" : key + ": ") + error.what());
-  }
-}
-
 struct Face {
   Eigen::Vector2d middle;  // of the segment between the face's ends
   double half_height;      // half that segment's length
   bool is_closed;          // no ends: around a hole, or the whole boundary
+  bool is_bent;            // its vertices leave that segment
+  bool has_crown;          // on some edge: no wall
 };
 
-std::vector<Face> faces_at_walls(const ReachableContact& contact) {
+bool has_wall(const Scene& scene, const std::string& label) {
+  const auto own = scene.boundary.find(label);
+  return scene.wall || (own != scene.boundary.end() && own->second.contact.wall);
+}
+
+std::vector<Face> faces_at_walls(const Scene& scene, const ReachableContact& contact) {
   const Mesh& mesh = contact.mesh;
   std::vector<Face> faces;
   for (const auto& chain : boundary_chains(mesh, BoundaryRole::contact)) {
     if (contact.matched[chain.front()]) continue;
     const auto& start = mesh.vertices[mesh.boundary[chain.front()].vertices[0]];
     const auto& end = mesh.vertices[mesh.boundary[chain.back()].vertices[1]];
-    const bool is_closed = start == end;
-    faces.push_back({(start + end) / 2, (end - start).norm() / 2, is_closed});
+    const double height = (end - start).norm();
+    const auto is_off = [&](int row) {
+      constexpr double straight = 1e-3;
+      const auto& at = mesh.vertices[mesh.boundary[row].vertices[1]];
+      return std::abs(cross_area(start, end, at)) > straight * height * height;
+    };
+    const auto has_none = [&](int row) {
+      return !has_wall(scene, boundary_label(mesh, mesh.boundary[row]));
+    };
+    faces.push_back({.middle = (start + end) / 2,
+                     .half_height = height / 2,
+                     .is_closed = start == end,
+                     .is_bent = std::ranges::any_of(chain, is_off),
+                     .has_crown = std::ranges::any_of(chain, has_none)});
   }
   return faces;
 }
@@ -76,10 +81,15 @@ void check_geometry(const Scene& scene, const Mesh& mesh, const std::vector<Face
     fail(scene, "teeth", *scene.teeth,
          "contradicts the mesh " + mesh.name + ", which has " + std::to_string(faces.size()) +
              " contact face(s)");
-  if (scene.crown_radius_mm && !scene.wall && std::ranges::any_of(faces, &Face::is_closed))
-    fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
-         "on the mesh " + mesh.name +
-             ", where a contact face is closed and has no middle (allowed: null, for no crown)");
+  for (const Face& face : faces) {
+    if (!scene.crown_radius_mm || !face.has_crown) continue;
+    const auto refuse_crown = [&](const std::string& why) {
+      fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
+           "on the mesh " + mesh.name + ", where a contact face is " + why);
+    };
+    if (face.is_closed) refuse_crown("closed and has no middle (allowed: null, for no crown)");
+    if (face.is_bent) refuse_crown("bent (allowed: straight faces, walls, or null, for no crown)");
+  }
   if (faces.empty()) return;
   const Face& face = faces.front();
   check_length(scene, "tip_half_height_mm", scene.tip_half_height_mm, face.half_height, mesh);
@@ -171,110 +181,6 @@ std::vector<Eigen::Matrix3d> compliances(const Scene& scene, const Mesh& mesh) {
   return result;
 }
 
-void check_material(const Scene& scene, const std::string& prefix, const Material& material) {
-  if (!(material.young_MPa > 0) || !std::isfinite(material.young_MPa))
-    fail(scene, prefix + "young_MPa", material.young_MPa, "(allowed: > 0)");
-  if (!(material.poisson > -1 && material.poisson < 0.5))
-    fail(scene, prefix + "poisson", material.poisson,
-         "(allowed: between -1 and 0.5, both excluded)");
-}
-
-void check_loads(const Scene& scene, const std::string& prefix, const BoundaryConditions& boundary,
-                 double clearance_mm, const Eigen::Vector2d& displacement_mm,
-                 const Eigen::Vector2d& body_force_N_per_mm3) {
-  of_scene(scene, prefix + "boundary", [&] { check_values(boundary); });
-  if (!(clearance_mm >= 0) || !std::isfinite(clearance_mm))
-    fail(scene, prefix + "clearance_mm", clearance_mm, "(allowed: >= 0)");
-  if (!displacement_mm.allFinite())
-    fail(scene, prefix + "displacement_mm", shown(displacement_mm), "(allowed: finite numbers)");
-  if (!body_force_N_per_mm3.allFinite())
-    fail(scene, prefix + "body_force_N_per_mm3", shown(body_force_N_per_mm3),
-         "(allowed: finite numbers)");
-}
-
-void check_clearance(const Scene& scene, const std::string& prefix, const ContactPair& pair) {
-  if (pair.clearance_mm && !std::isfinite(*pair.clearance_mm))
-    fail(scene, prefix + "contacts: clearance_mm", *pair.clearance_mm, "(allowed: finite numbers)");
-}
-
-void check_contacts(const Scene& scene) {
-  for (const ContactPair& pair : scene.contacts) {
-    if (pair.friction && (!(*pair.friction >= 0) || !std::isfinite(*pair.friction)))
-      fail(scene, "contacts: friction", *pair.friction, "(allowed: >= 0)");
-    check_clearance(scene, "", pair);
-  }
-  for (const auto& [label, values] : scene.boundary)
-    if (is_paired(scene, label))
-      for (const auto& [key, is_given] :
-           {std::pair("friction", values.contact.friction.has_value()),
-            {"clearance_mm", values.contact.clearance_mm.has_value()},
-            {"wall", values.contact.wall.has_value()}})
-        if (is_given)
-          fail(scene, "boundary: " + label, key,
-               "of a group in contacts (allowed: face; friction and clearance_mm of the pair)");
-}
-
-void check_faces(const Scene& scene) {
-  constexpr const char* why = "without a wall (allowed: with one)";
-  bool used = scene.wall.has_value();
-  for (const auto& [label, values] : scene.boundary) {
-    used |= values.contact.wall.has_value();
-    if (values.contact.face && !values.contact.wall && !scene.wall && !is_paired(scene, label))
-      fail(scene, "boundary: " + label, "face", why);
-  }
-  if (scene.face && !used) fail(scene, "face", "given", why);
-}
-
-std::string step_prefix(std::size_t k) { return "load_steps: " + std::to_string(k + 1) + ": "; }
-
-template <typename AnyScene>
-auto pair_of(AnyScene& scene, const ContactPair& of_step) {
-  return std::ranges::find(scene.contacts, of_step.between, &ContactPair::between);
-}
-
-void check_contacts_of_step(const Scene& scene, std::size_t k) {
-  const std::vector<ContactPair>& contacts = scene.later_steps[k].contacts;
-  for (const ContactPair& pair : contacts) {
-    if (std::ranges::count(contacts, pair.between, &ContactPair::between) > 1)
-      fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
-           "twice (allowed: every pair once)");
-    if (pair_of(scene, pair) == scene.contacts.end())
-      fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
-           "(allowed: as in contacts of the scene)");
-    if (pair.friction || !pair.clearance_mm)
-      fail(scene, step_prefix(k) + "contacts", names_of(pair),
-           "(allowed: clearance_mm, and no friction)");
-    check_clearance(scene, step_prefix(k), pair);
-  }
-}
-
-void check_steps(const Scene& scene) {
-  if (scene.equal_steps < 1 || scene.equal_steps > most_load_steps)
-    fail(scene, "load_steps", scene.equal_steps,
-         "(allowed: from 1 to " + std::to_string(most_load_steps) + ")");
-  if (scene.equal_steps > 1 && !scene.later_steps.empty())
-    fail(scene, "load_steps", scene.equal_steps, "and a list (allowed: one of them)");
-  for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
-    const LoadStep& step = scene.later_steps[k];
-    check_loads(scene, step_prefix(k), step.boundary, step.clearance_mm.value_or(0),
-                step.displacement_mm.value_or(Eigen::Vector2d::Zero()),
-                step.body_force_N_per_mm3.value_or(Eigen::Vector2d::Zero()));
-    for (const auto& [label, values] : step.boundary) {
-      if (values.contact.clearance_mm && is_paired(scene, label))
-        fail(scene, step_prefix(k) + "boundary: " + label, "clearance_mm",
-             "of a group in contacts (allowed: clearance_mm of the pair, in contacts)");
-      for (const auto& [key, is_given] : {std::pair("support", values.support.has_value()),
-                                          {"friction", values.contact.friction.has_value()},
-                                          {"wall", values.contact.wall.has_value()},
-                                          {"face", values.contact.face.has_value()}})
-        if (is_given)
-          fail(scene, step_prefix(k) + "boundary: " + label, key,
-               "(allowed: traction_MPa, pressure_MPa, displacement_mm, clearance_mm)");
-    }
-    check_contacts_of_step(scene, k);
-  }
-}
-
 void change(Scene& scene, const LoadStep& step) {
   if (step.displacement_mm) scene.displacement_mm = *step.displacement_mm;
   if (step.body_force_N_per_mm3) scene.body_force_N_per_mm3 = *step.body_force_N_per_mm3;
@@ -289,7 +195,8 @@ void change(Scene& scene, const LoadStep& step) {
     if (values.contact.clearance_mm) own.contact.clearance_mm = values.contact.clearance_mm;
   }
   for (const ContactPair& pair : step.contacts)
-    pair_of(scene, pair)->clearance_mm = pair.clearance_mm;
+    std::ranges::find(scene.contacts, pair.between, &ContactPair::between)->clearance_mm =
+        pair.clearance_mm;
 }
 
 bool changes_gap(const LoadStep& step) {
@@ -352,10 +259,26 @@ void check_groups(const Scene& scene, const Mesh& mesh) {
              [&] { check_labels(scene.later_steps[k].boundary, mesh); });
 }
 
+// Where every contact group presses on another, there is no wall that these keys could place.
+void check_keys_of_walls(const Scene& scene, const Mesh& mesh) {
+  const auto is_at_wall = [&](const BoundaryEdge& edge) {
+    return edge.role == BoundaryRole::contact && !is_paired(scene, boundary_label(mesh, edge));
+  };
+  if (scene.contacts.empty() || std::ranges::any_of(mesh.boundary, is_at_wall)) return;
+  constexpr const char* why = "where all contact groups are in contacts (allowed: in these)";
+  if (scene.clearance_mm != 0) fail(scene, "clearance_mm", scene.clearance_mm, why);
+  if (scene.wall) fail(scene, "wall", "given", why);
+  if (scene.face) fail(scene, "face", "given", why);
+  for (std::size_t k = 0; k < scene.later_steps.size(); ++k)
+    if (const auto& clearance_mm = scene.later_steps[k].clearance_mm)
+      fail(scene, step_prefix(k) + "clearance_mm", *clearance_mm, why);
+}
+
 ReachableContact contact_of(const Scene& scene, Mesh mesh) {
   mesh = of_scene(scene, "mesh", [&] { return transformed(std::move(mesh), scene.mesh); });
   mesh = of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
   check_groups(scene, mesh);
+  check_keys_of_walls(scene, mesh);
   MatchedFaces faces =
       of_scene(scene, "", [&] { return with_matched_faces(std::move(mesh), scene); });
   return of_scene(scene, "boundary",
@@ -364,43 +287,11 @@ ReachableContact contact_of(const Scene& scene, Mesh mesh) {
 
 }  // namespace
 
-std::string names_of(const ContactPair& pair) {
-  return joined(pair.between[0]) + " and " + joined(pair.between[1]);
-}
-
-bool is_paired(const Scene& scene, const std::string& label) {
-  return std::ranges::any_of(scene.contacts,
-                             [&](const ContactPair& pair) { return pair.has(label); });
-}
-
-void check_values(const Scene& scene) {
-  check_material(scene, "", scene.material);
-  for (const auto& [body, material] : scene.materials)
-    check_material(scene, "materials: " + body + ": ", material);
-  for (const Material& material : scene.layer_materials)
-    check_material(scene, "layers: materials: ", material);
-  of_scene(scene, "mesh", [&] { check_values(scene.mesh); });
-  of_scene(scene, "layers", [&] { check_values(scene.layers); });
-  if (!(scene.friction >= 0) || !std::isfinite(scene.friction))
-    fail(scene, "friction", scene.friction, "(allowed: >= 0)");
-  if (scene.crown_radius_mm &&
-      (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
-    fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
-         "(allowed: > 0, or null for a wall on the edges)");
-  of_scene(scene, "", [&] { check_curve("wall", scene.wall); });
-  of_scene(scene, "", [&] { check_curve("face", scene.face); });
-  check_contacts(scene);
-  check_faces(scene);
-  check_loads(scene, "", scene.boundary, scene.clearance_mm, scene.displacement_mm,
-              scene.body_force_N_per_mm3);
-  check_steps(scene);
-}
-
 Problem pose(const Scene& scene, Mesh given_mesh) {
   check_values(scene);
   ReachableContact contact = contact_of(scene, std::move(given_mesh));
   Mesh& mesh = contact.mesh;
-  check_geometry(scene, mesh, faces_at_walls(contact));
+  check_geometry(scene, mesh, faces_at_walls(scene, contact));
   check_pieces(scene, contact);
 
   std::vector<Loads> steps = loads_of_steps(scene, contact);

@@ -34,21 +34,32 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
+// Abaqus and CalculiX do not tell capitals in names apart.
+struct WithoutCase {
+  bool operator()(const std::string& a, const std::string& b) const { return upper(a) < upper(b); }
+};
+using Names = std::set<std::string, WithoutCase>;
+
 using Numbers = std::vector<long>;
+using Sets = std::map<std::string, Numbers, WithoutCase>;
 using Edge = std::array<long, 2>;
 Edge edge_of(long a, long b) { return {std::min(a, b), std::max(a, b)}; }
 
-struct Element {
-  std::size_t corners;  // 2: a line
-  Numbers nodes;
-};
-
-// Of an element type: how many nodes, how many of them are corners.
+// Of an element type: how many nodes, how many of them are corners (2: a line).
 struct Shape {
   std::size_t nodes, corners;
+  bool is_shell = false;  // its sides S1 and S2 are its faces
 };
+
+struct Element {
+  Shape shape;
+  Numbers nodes;
+
+  bool is_plane() const { return shape.corners > 2; }
+};
+
 std::optional<Shape> shape_of(const std::string& type) {
-  if (type.starts_with("STRI65")) return Shape{6, 3};
+  if (type.starts_with("STRI65")) return Shape{6, 3, true};
   for (const char* solid : {"C3D", "SC"})
     if (type.starts_with(solid)) return {};
   const bool is_line = type.starts_with("T2D") || type.starts_with("T3D") ||
@@ -62,7 +73,8 @@ std::optional<Shape> shape_of(const std::string& type) {
   const auto count = static_cast<std::size_t>(std::max(0, digit - '0'));
   if (is_line) return Shape{type.starts_with("B") ? count + 1 : count, 2};
   if (at == 0 || (count != 3 && count != 4 && count != 6 && count != 8)) return {};
-  return Shape{count, count % 3 == 0 ? 3U : 4U};
+  const bool is_shell = !type.starts_with("C");
+  return Shape{count, count % 3 == 0 ? 3U : 4U, is_shell};
 }
 
 class AbaqusReader {
@@ -107,7 +119,8 @@ class AbaqusReader {
       const auto value = fields_of(fields[k].substr(std::min(equals + 1, fields[k].size())));
       if (!name.empty()) parameters_[upper(name[0])] = value.empty() ? "" : value[0];
     }
-    if (keyword_ == "INCLUDE") fail("*INCLUDE (allowed: one file)");
+    refuse_what_moves_or_adds();
+    has_instance_ |= keyword_ == "INSTANCE";
     if (keyword_ == "SOLID SECTION" || keyword_ == "SHELL SECTION")
       sections_.push_back(parameter("ELSET"));
     if (keyword_ != "ELEMENT") return;
@@ -119,6 +132,23 @@ class AbaqusReader {
                       "lines, as T2D2)",
                       type));
     shape_ = *shape;
+  }
+
+  // Read without these, the body would be another.
+  void refuse_what_moves_or_adds() const {
+    const bool adds = keyword_ == "NODE" || keyword_ == "ELEMENT";
+    if (keyword_ == "INCLUDE" || (adds && parameters_.contains("INPUT")))
+      fail(fmt::format("*{} of another file (allowed: one file)", keyword_));
+    for (const char* made : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY"})
+      if (keyword_ == made)
+        fail(fmt::format("*{} (allowed: each node and element is written)", keyword_));
+    const std::string system = upper(parameter("SYSTEM"));
+    if (keyword_ == "SYSTEM" || (keyword_ == "NODE" && !system.empty() && system != "R"))
+      fail("coordinates of a system of their own (allowed: x and y of the model)");
+    if (keyword_ == "INSTANCE" && has_instance_)
+      fail(
+          "a second *INSTANCE (allowed: one; Abaqus writes files without parts and assemblies "
+          "too)");
   }
 
   void take(std::vector<std::string> fields) {
@@ -141,8 +171,7 @@ class AbaqusReader {
       for (std::size_t k = 1; k < pending_.size(); ++k)
         if (!nodes_.contains(pending_[k])) fail(fmt::format("node {} does not exist", pending_[k]));
       const bool is_new =
-          elements_.emplace(number, Element{shape_.corners, {pending_.begin() + 1, pending_.end()}})
-              .second;
+          elements_.emplace(number, Element{shape_, {pending_.begin() + 1, pending_.end()}}).second;
       if (!is_new) fail(fmt::format("element {} is given twice", number));
       if (shape_.corners == 2 && pending_.size() == 4)  // its middle comes second
         std::swap(elements_[number].nodes[1], elements_[number].nodes[2]);
@@ -153,16 +182,26 @@ class AbaqusReader {
       auto& sets = keyword_ == "ELSET" ? element_sets_ : node_sets_;
       if (keyword_ == "ELSET") given_sets_.insert(parameter("ELSET"));
       add(fields, sets, sets[parameter(keyword_)]);
-    } else if (keyword_ == "SURFACE" && fields.size() > 1) {
-      Numbers of;
-      add({fields[0]}, element_sets_, of);
-      const std::string side = upper(fields[1]);
-      for (const long element : of) add_side(element, side);
+    } else if (keyword_ == "SURFACE") {
+      add_to_surface(fields);
+    } else if (keyword_ == "INSTANCE") {
+      for (const std::string& field : fields)
+        if (!field.empty() && parse_number(field) != 0)
+          fail("*INSTANCE is moved (allowed: it lies where its *PART does)");
     }
   }
 
-  void add(const std::vector<std::string>& fields, const std::map<std::string, Numbers>& sets,
-           Numbers& to) {
+  void add_to_surface(const std::vector<std::string>& fields) {
+    if (upper(parameter("TYPE")) == "NODE")
+      return add({fields[0]}, node_sets_, node_sets_[parameter("NAME")]);
+    const std::string side = fields.size() > 1 ? upper(fields[1]) : "";
+    if (side.empty()) fail("a surface without a side (allowed: as 'Eleft, S1')");
+    Numbers of;
+    add({fields[0]}, element_sets_, of);
+    for (const long element : of) add_side(element, side);
+  }
+
+  void add(const std::vector<std::string>& fields, const Sets& sets, Numbers& to) {
     if (parameters_.contains("GENERATE") && keyword_ != "SURFACE") {
       if (fields.size() < 2) fail("GENERATE needs a first and a last number");
       const long first = whole(fields[0]), last = whole(fields[1]),
@@ -184,30 +223,32 @@ class AbaqusReader {
   }
 
   void add_side(long number, const std::string& side) {
-    const auto element = elements_.find(number);
-    const std::size_t k = side.size() == 2 && (side[0] == 'S' || side[0] == 'E')
-                              ? static_cast<std::size_t>(side[1] - '1')
-                              : 99;
-    if (element == elements_.end() || k >= element->second.corners)
+    const auto found = elements_.find(number);
+    const bool is_edge = side.size() == 2 && (side[0] == 'S' || side[0] == 'E');
+    if (found == elements_.end() || !is_edge)
       fail(fmt::format("side {} of element {} does not exist", side, number));
-    const Numbers& n = element->second.nodes;
-    names_of_edge_[edge_of(n[k], n[(k + 1) % element->second.corners])].insert(parameter("NAME"));
+    const auto& [shape, n] = found->second;
+    const char first = shape.is_shell && side[0] == 'S' ? '3' : '1';
+    const auto k = static_cast<std::size_t>(side[1] - first);  // huge if negative
+    if (k >= shape.corners)
+      fail(fmt::format("side {} of element {} is no edge (allowed: {}{} to {}{})", side, number,
+                       side[0], first, side[0], shape.corners + (first - '1')));
+    names_of_edge_[edge_of(n[k], n[(k + 1) % shape.corners])].insert(parameter("NAME"));
   }
-
-  static bool is_plane(const Element& element) { return element.corners > 2; }
 
   // Each plane element's body.
   std::map<long, std::string> bodies() const {
-    const auto share_out = [&](const std::set<std::string>& sets) {
+    const auto share_out = [&](const Names& sets) {
       std::map<long, std::string> body;
       for (const std::string& set : sets)
         if (const auto found = element_sets_.find(set); found != element_sets_.end())
           for (const long element : found->second)
-            if (const auto it = elements_.find(element);
-                it != elements_.end() && is_plane(it->second) && !body.emplace(element, set).second)
+            if (const auto it = elements_.find(element); it != elements_.end() &&
+                                                         it->second.is_plane() &&
+                                                         !body.emplace(element, set).second)
               return std::map<long, std::string>();
       for (const auto& [number, element] : elements_)
-        if (is_plane(element) && !body.contains(number)) return std::map<long, std::string>();
+        if (element.is_plane() && !body.contains(number)) return std::map<long, std::string>();
       return body;
     };
     std::map<long, std::string> body = share_out({sections_.begin(), sections_.end()});
@@ -221,12 +262,12 @@ class AbaqusReader {
     for (const auto& [name, numbers] : element_sets_)
       for (const long number : numbers)
         if (const auto found = elements_.find(number);
-            found != elements_.end() && !is_plane(found->second))
+            found != elements_.end() && !found->second.is_plane())
           names_of_edge_[edge_of(found->second.nodes[0], found->second.nodes[1])].insert(name);
     std::map<Edge, int> triangles;
     for (const auto& [number, element] : elements_)
-      for (std::size_t k = 0; is_plane(element) && k < element.corners; ++k)
-        ++triangles[edge_of(element.nodes[k], element.nodes[(k + 1) % element.corners])];
+      for (std::size_t k = 0; element.is_plane() && k < element.shape.corners; ++k)
+        ++triangles[edge_of(element.nodes[k], element.nodes[(k + 1) % element.shape.corners])];
     for (const auto& [name, numbers] : node_sets_) {
       const std::set<long> set(numbers.begin(), numbers.end());
       for (const auto& [edge, count] : triangles)
@@ -254,7 +295,7 @@ class AbaqusReader {
     constexpr std::array<int, 9> gmsh_types = {0, 0, 0, 2, 3, 0, 9, 0, 16};  // by nodes
     const std::map<long, std::string> body = bodies();
     for (const auto& [number, element] : elements_) {
-      if (!is_plane(element)) continue;
+      if (!element.is_plane()) continue;
       const int group = group_of("2 " + body.at(number));
       lines +=
           fmt::format("{} {} 2 {} {}", ++count, gmsh_types.at(element.nodes.size()), group, group);
@@ -280,8 +321,9 @@ class AbaqusReader {
   std::map<long, std::array<double, 3>> nodes_;
   std::map<long, Element> elements_;
   std::map<long, std::string> of_element_keyword_;
-  std::map<std::string, Numbers> element_sets_, node_sets_;
-  std::set<std::string> given_sets_;  // of *ELSET
+  Sets element_sets_, node_sets_;
+  Names given_sets_;  // of *ELSET
+  bool has_instance_ = false;
   std::vector<std::string> sections_;
   std::map<Edge, std::set<std::string>> names_of_edge_;
 };

@@ -82,7 +82,7 @@ void check_is_held(const PlaneModel& model) {
     if (!curve.sides.empty() && role == BoundaryRole::displacement) return;
     in_contact |= !curve.sides.empty() && role == BoundaryRole::contact;
     for (const std::string& name : curve.names)
-      if (!parse_boundary_label(name)) others.insert("'" + name + "'");
+      if (!parse_boundary_label(name) && curve.is_unnamed_role) others.insert("'" + name + "'");
   }
   if (in_contact && others.empty()) return;
   fail(fmt::format(

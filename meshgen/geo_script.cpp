@@ -9,6 +9,7 @@
 #include "mesh/model_format.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
+#include "support/gzip.hpp"
 
 namespace airybench {
 namespace {
@@ -78,6 +79,10 @@ std::size_t read_definitions(const std::vector<Token>& tokens, std::size_t at, G
   return at;
 }
 
+std::string script_text(const std::filesystem::path& file) {
+  return is_gzipped(file) ? unpacked_text(file) : file_text(file);
+}
+
 void read_into(GeoScript& script, const std::filesystem::path& file, const std::string& text);
 
 // Gmsh may never come to where it is included: that it is not there is for Gmsh to say.
@@ -113,7 +118,7 @@ void read_into(GeoScript& script, const std::filesystem::path& file, const std::
 
 GeoScript read_geo_script(const std::filesystem::path& file) {
   GeoScript script;
-  read_into(script, file.lexically_normal(), file_text(file));
+  read_into(script, file.lexically_normal(), script_text(file));
   return script;
 }
 
@@ -130,7 +135,7 @@ GeoScript what_is_read(const std::filesystem::path& model) {
 }
 
 int line_with(const std::filesystem::path& file, const std::string& text) {
-  const std::string all = file_text(file);
+  const std::string all = script_text(file);
   const std::size_t at = all.find(text);
   return at == all.npos
              ? 0

@@ -59,6 +59,22 @@ void refuse_huge() {
                                    coordinate, most));
 }
 
+// Gmsh calls bent polylines lines too. Of two coordinates of the plane, on the curve.
+template <class Place>
+bool is_straight(int curve, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                 const Place& in_plane) {
+  std::vector<double> low, high, parameters, xyz;
+  gmsh::model::getParametrizationBounds(1, curve, low, high);
+  constexpr int parts = 64;
+  for (int k = 1; k < parts; ++k)
+    parameters.push_back(low.at(0) + (high.at(0) - low.at(0)) * k / parts);
+  gmsh::model::getValue(1, curve, parameters, xyz);
+  const double square = (b - a).squaredNorm();
+  for (std::size_t at = 0; at < xyz.size(); at += 3)
+    if (std::abs(cross_area(a, b, in_plane(xyz, at))) > 1e-9 * square) return false;
+  return true;
+}
+
 // A straight curve from a to b.
 struct StraightLine {
   int curve;
@@ -82,12 +98,16 @@ std::vector<StraightLine> straight_lines_around(int surface) {
     gmsh::model::getType(dimension, curve, type);
     gmsh::model::getBoundary({{dimension, curve}}, ends, false, false);
     if (type != "Line" || ends.size() != 2) continue;
+    const auto in_plane = [&](const std::vector<double>& xyz, std::size_t at) {
+      return Eigen::Vector2d(xyz.at(at + first), xyz.at(at + second));
+    };
     const auto place = [&](std::size_t end) {
       std::vector<double> xyz;
       gmsh::model::getValue(0, ends[end].second, {}, xyz);
-      return Eigen::Vector2d(xyz.at(first), xyz.at(second));
+      return in_plane(xyz, 0);
     };
-    lines.push_back({curve, place(0), place(1)});
+    const Eigen::Vector2d a = place(0), b = place(1);
+    if (is_straight(curve, a, b, in_plane)) lines.push_back({curve, a, b});
   }
   return lines;
 }
@@ -126,14 +146,16 @@ double option(const char* name) {
   return value;
 }
 
-// Over what the model itself says of sizes. Numbers of edges (transfinite curves) stay.
+// Over what the model itself says of sizes; Gmsh multiplies these bounds by its factor. Numbers of
+// edges (transfinite curves) stay.
 void set_sizes(const ModelOptions& options, double mm_per_unit) {
   if (options.size_factor)
     gmsh::option::setNumber("Mesh.MeshSizeFactor",
                             option("Mesh.MeshSizeFactor") * *options.size_factor);
   if (!options.longest_edge_mm) return;
+  const double longest = *options.longest_edge_mm / (mm_per_unit * option("Mesh.MeshSizeFactor"));
   for (const char* bound : {"Mesh.MeshSizeMax", "Mesh.MeshSizeMin"})
-    gmsh::option::setNumber(bound, std::min(option(bound), *options.longest_edge_mm / mm_per_unit));
+    gmsh::option::setNumber(bound, std::min(option(bound), longest));
 }
 
 // Fills the outline of the triangles, which may be as thin as can be.

@@ -93,7 +93,8 @@ std::vector<BoundarySegment> boundary_segments(const ToothDimensions& d) {
   Eigen::Vector2d at(0, -r);
   const auto go_to = [&](double x, double y, BoundaryRole role) {
     const Eigen::Vector2d next(x, y);
-    if (next != at) segments.push_back({at, next, role});
+    if ((next - at).norm() < 1e-9) return;  // a tip or a gap of no width
+    segments.push_back({at, next, role});
     at = next;
   };
   const auto tooth = [&](double axis_y) {

@@ -4,6 +4,13 @@ from collections.abc import Mapping
 from urllib.parse import unquote
 
 
+def other_contact_solver(case: Mapping) -> str:
+    """The solver of the contact law, where it is not the one that the case implies."""
+    sweeps = case.get("stop") == "paper" or case.get("knob") == "contact sweeps"
+    solver = case.get("contact_solver") or ""
+    return solver if solver != ("gauss-seidel" if sweeps else "newton") else ""
+
+
 def case_name(case: Mapping) -> str:
     """MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper][/contact=SOLVER] of a record."""
     name = "/".join(case[key] for key in ("mesh", "scene", "method"))
@@ -13,10 +20,8 @@ def case_name(case: Mapping) -> str:
         value = repr(float(case["knob_value"])).removesuffix(".0")
         name += f"/{case['knob'].replace(' ', '_')}={value}"
     name += "/stop=paper" if case.get("stop") == "paper" else ""
-    sweeps = case.get("stop") == "paper" or case.get("knob") == "contact sweeps"
-    solver = case.get("contact_solver")
-    implied = "gauss-seidel" if sweeps else "newton"
-    return name + (f"/contact={solver}" if solver and solver != implied else "")
+    solver = other_contact_solver(case)
+    return name + (f"/contact={solver}" if solver else "")
 
 
 def words_of_file(stem: str) -> str:

@@ -91,7 +91,7 @@ def alike(measures: pd.DataFrame, mesh: str, other: str) -> bool:
 def name_of(meshes: list[str]) -> str:
     """'one tooth' of the catalogue's, adapted, refined or not; punch1, punch2 -> punch; else the
     first mesh's."""
-    meshes = list(dict.fromkeys(re.split(r"\+(?:adapt|refined)\d", mesh)[0] for mesh in meshes))
+    meshes = list(dict.fromkeys(re.split(r"\+(?:adapt|refined?)\d", mesh)[0] for mesh in meshes))
     ours = [catalogue_mesh(mesh) for mesh in meshes]
     if all(ours):
         return BODIES[SIZES[ours[0]].teeth]

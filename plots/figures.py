@@ -29,17 +29,20 @@ import command
 from documents import documents_of
 from drawing import STYLE, Drawing, for_papers
 from records import Row, read_run, rows_of
-from selection import grouped
+from selection import comparable, grouped
 from words import cases_by_reason
 
 
 def drawings_of(rows: list[Row]) -> list[Drawing]:
+    rows = comparable(rows)
     modules = sorted(path.stem for path in Path(__file__).parent.glob("figure/*.py"))
     return [drawing for name in modules
             for drawing in import_module(f"figure.{name}").drawings(rows)]
 
 
 def why_undrawn(row: Row, drawn: list[Row]) -> str:
+    if row not in comparable([row, *drawn]):
+        return f"contact law by {row.contact_solver}"
     scenes = {other.scene for other in drawn if other.study == row.study}
     if row.scene not in scenes:
         return f"scene {row.scene}"

@@ -4,7 +4,7 @@ Fill colour: error_force. Crossed: status inaccurate. Open: no answer, time extr
 arrow: only a bound, or no estimate at all. Sizes in inches, type in points.
 """
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from matplotlib import colormaps, ticker
@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from drawing import HEADROOM, LINE, TYPE
-from records import STOPS, Row
-from selection import of_scene
+from records import Row
+from selection import by_stop, of_scene
 from words import cases_by_reason, heap_caption, plain, short, time_caption, wrapped
 
 WIDTH = 6.3  # inches: 16 cm
@@ -108,14 +108,10 @@ class ErrorScale:
         bar.ax.set_title("error of the contact forces", pad=2)
 
 
-def by_stop(rows: list[Row]) -> Iterator[tuple[str, list[Row], ErrorScale]]:
-    """Suffix of the figures' names, rows with a stop, colours for both stops; studies are left out."""
+def of_no_study(rows: list[Row]) -> tuple[dict[str, list[Row]], ErrorScale]:
+    """Rows by stop, and colours for both stops."""
     own = of_scene([row for row in rows if not row.study])
-    scale = ErrorScale(own)
-    for stop in STOPS:
-        of_stop = [row for row in own if row.stop == stop]
-        if of_stop:
-            yield "_paper_stop" if stop == "paper" else "", of_stop, scale
+    return by_stop(own), ErrorScale(own)
 
 
 def draw_point(axes: Axes, x: float, y: float | None, row: Row, mark: str, scale: ErrorScale,

@@ -10,6 +10,7 @@ from itertools import chain
 import numpy as np
 
 from records import NOT_NEGATIVE, Row
+from selection import grouped
 from words import counted, percent, span, targets
 
 UNKNOWN = "unknown"  # written by bench where the machine does not tell
@@ -138,10 +139,12 @@ def listed_share(count: int, of: list[Row], one: str = "has", many: str = "have"
 
 
 def noise(rows: list[Row]) -> Iterator[str]:
-    samples = list(chain.from_iterable(row.noise_kernel_samples_s or () for row in rows))
+    samples: list[float] = []  # over the median of their machine
+    for own in grouped(rows, lambda row: context_of(row)["cpu"]).values():
+        of_machine = list(chain.from_iterable(row.noise_kernel_samples_s or () for row in own))
+        samples += list(np.array(of_machine) / np.median(of_machine)) if of_machine else []
     if samples:
-        middle = np.median(samples)
-        spread = np.median(np.abs(samples - middle)) / middle
+        spread = np.median(np.abs(np.array(samples) - 1))
         yield ("A fixed loop, timed before and after every case, scattered by "
                f"{percent(spread)} (median absolute deviation over median of {len(samples)} times).")
     for share in sorted({row.retry_noisy for row in rows if row.retry_noisy}):

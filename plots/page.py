@@ -58,6 +58,10 @@ class Night:
     def revision(self) -> str:
         return self.context.get("git_revision", "unknown")
 
+    @property
+    def machine(self) -> str:
+        return ", ".join(self.context.get(key, "") for key in ("cpu", "cpus", "threads"))
+
 
 def moment(date: str) -> datetime:
     """Dates compare as moments: with and without an offset, which then is UTC."""
@@ -119,7 +123,8 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
     run = cases[cases.night == len(nights) - 1] if records is None else named(records)
     bodies = list(dict.fromkeys(cases.sort_values("n_phi", kind="stable").body))
     return {
-        "nights": [{"date": night.date, "revision": night.revision} for night in nights],
+        "nights": [{"date": night.date, "revision": night.revision, "machine": night.machine}
+                   for night in nights],
         "noise": {key: [night.noise.get(key) for night in nights] for key in ("median_s", "mad_s")},
         "bodies": bodies,
         "cases": sorted(series(cases, len(nights)), key=lambda case: (
@@ -146,7 +151,8 @@ def head_of(key: str) -> str:
 
 def named(cases: pd.DataFrame) -> pd.DataFrame:
     cases = with_derived(cases)
-    return cases.assign(name=[case_name(case) for case in cases.to_dict("records")])
+    return cases.assign(name=[case_name(case) for case in cases.to_dict("records")],
+                        time_mad_s=cases.time_mad_s.where(cases.repetitions != 1, None))
 
 
 def is_there(value: object) -> bool:

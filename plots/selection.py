@@ -6,7 +6,8 @@ from typing import TypeVar
 
 import numpy as np
 
-from records import Row
+from case_names import other_contact_solver
+from records import STOPS, Row
 
 Item, Key = TypeVar("Item"), TypeVar("Key", bound=Hashable)
 GIVEN = re.compile(r"\br=([^,:]+),rho=([^,:]+)")  # parameters of an augmented Lagrangian method
@@ -25,6 +26,25 @@ def by_mesh(rows: list[Row]) -> dict[str, list[Row]]:
 
 def by_body(rows: list[Row]) -> dict[str, list[Row]]:
     return grouped(rows, lambda row: row.body)
+
+
+def with_suffix(name: str, stop: str) -> str:
+    """Of a figure that shows one stop."""
+    return f"{name}_paper_stop" if stop == "paper" else name
+
+
+def by_stop(rows: list[Row]) -> dict[str, list[Row]]:
+    groups = {stop: [row for row in rows if row.stop == stop] for stop in STOPS}
+    return {stop: own for stop, own in groups.items() if own}
+
+
+def comparable(rows: list[Row]) -> list[Row]:
+    """Without cases whose contact law another solver than theirs solved, if others remain: only the
+    figure `contact` tells solvers apart."""
+    def is_usual(row: Row) -> bool:
+        return row.study == "contact" or not other_contact_solver(vars(row))
+    others_remain = any(is_usual(row) and row.study != "contact" for row in rows)
+    return [row for row in rows if is_usual(row) or not others_remain]
 
 
 def kind_of(row: Row) -> str:

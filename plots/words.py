@@ -160,6 +160,11 @@ def names_of(rows: list[Row]) -> str:
                      f"{len(own)} of {family}" for family, own in methods)
 
 
+def at_stop(rows: list[Row]) -> str:
+    """Behind the title of a figure that shows one stop."""
+    return ", with the paper's stops" if rows[0].stop == "paper" else ""
+
+
 def targets(rows: list[Row]) -> list[str]:
     found = {row.target_error for row in rows} - {None}
     for row in rows:

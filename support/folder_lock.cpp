@@ -19,12 +19,17 @@
 namespace airybench {
 namespace {
 
-std::vector<int> held;
+struct Held {
+  int descriptor;
+  dev_t device;
+  ino_t inode;
+};
+std::vector<Held> held;
 
 // A child would hold the lock beyond its parent's end.
 void close_in_children() {
   static const int once = pthread_atfork(nullptr, nullptr, [] {
-    for (const int descriptor : held) close(descriptor);
+    for (const Held& one : held) close(one.descriptor);
     held.clear();
   });
   static_cast<void>(once);
@@ -49,6 +54,16 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
   close_in_children();
   held.reserve(held.size() + 1);
   descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  struct stat there = {};
+  if (descriptor_ >= 0) fstat(descriptor_, &there);
+  const auto is_the_same = [&](const Held& one) {
+    return one.device == there.st_dev && one.inode == there.st_ino;
+  };
+  if (descriptor_ >= 0 && std::ranges::any_of(held, is_the_same)) {
+    close(descriptor_);
+    descriptor_ = -1;
+    return;
+  }
   if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;
     const std::string why = descriptor_ >= 0 && error == EWOULDBLOCK
@@ -57,11 +72,12 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
     if (descriptor_ >= 0) close(descriptor_);
     throw FileError(fmt::format("{}: {}", folder.string(), why));
   }
-  held.push_back(descriptor_);
+  held.push_back({descriptor_, there.st_dev, there.st_ino});
 }
 
 FolderLock::~FolderLock() {
-  std::erase(held, descriptor_);
+  if (descriptor_ < 0) return;
+  std::erase_if(held, [&](const Held& one) { return one.descriptor == descriptor_; });
   close(descriptor_);
 }
 

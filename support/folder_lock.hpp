@@ -7,7 +7,8 @@ namespace airybench {
 
 // Locks the folder until the object or the process ends, even by a crash: flock() on the folder
 // itself, which leaves no file and needs only the right to read the folder. A network file system
-// may keep such a lock within one machine. At most one per folder and process.
+// may keep such a lock within one machine. A second one of a folder in a process is part of the
+// first, which must outlive it.
 class FolderLock {
  public:
   // Throws FileError if another process has the lock (it is named where the kernel lists it), or if
@@ -18,7 +19,7 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
-  int descriptor_;
+  int descriptor_;  // -1: part of another
 };
 
 }  // namespace airybench

@@ -102,6 +102,7 @@ std::string how_it_ended(const ChildEnd& end, double limit_s) {
     return "cannot be asked: " + std::generic_category().message(end.channel_error);
   if (end.timed_out) return fmt::format("was ended after the limit of {:.3g} s", limit_s);
   if (end.over_memory) return "was ended: it passed the memory limit";
+  if (end.oom_killed == true) return "was ended by the kernel for lack of memory";
   if (end.signal == SIGXFSZ) return "was ended by SIGXFSZ: a file that it wrote became too large";
   if (end.signal != 0) return "was ended by " + signal_name(end.signal);
   return fmt::format("ended with exit code {}", end.exit_code);

@@ -212,6 +212,7 @@ ChildEnd run_program(const Program& program, const ProgramLimits& limits) {
   const SharedEnd end;
   const pid_t parent = getpid();
   const std::vector<pid_t> others = descendants(parent);
+  const auto oom_kills_before = oom_kills();
   int adopts = 0;
   prctl(PR_GET_CHILD_SUBREAPER, &adopts);
   adopt_orphans();  // of a guardian that is killed
@@ -224,7 +225,10 @@ ChildEnd run_program(const Program& program, const ProgramLimits& limits) {
   prctl(PR_SET_CHILD_SUBREAPER, adopts);
   if (guardian < 0) fail_to("a program's process", error);
   if (is_killed) throw std::runtime_error("the program's guardian was ended");
-  return *end;
+  ChildEnd ended = *end;
+  if (const auto now = oom_kills(); now && oom_kills_before && ended.signal == SIGKILL)
+    ended.oom_killed = *now > *oom_kills_before;
+  return ended;
 }
 
 ProgramEnd run_program(const std::filesystem::path& program,

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <string>
@@ -20,7 +21,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* prefix = "airybench-scratch-";
+// With the machine's name: a lock may be unknown to others that see the folder.
+const std::string& prefix() {
+  static const std::string of_machine = [] {
+    std::array<char, 65> host{};
+    if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+    return "airybench-scratch-" + std::string(host.data()) + "-";
+  }();
+  return of_machine;
+}
 
 fs::path parent_of_all() {
   const char* given = std::getenv("TMPDIR");
@@ -66,7 +75,7 @@ void remove_folder(int parent, const char* folder) {
         for_each_entry(inner, [&](const char* entry) {
           if (remove_entry(inner, entry)) return;
           fchmodat(inner, entry, S_IRWXU, AT_SYMLINK_NOFOLLOW);  // or it cannot be moved
-          renameat(inner, entry, top, (prefix + std::to_string(++moved)).c_str());
+          renameat(inner, entry, top, (prefix() + std::to_string(++moved)).c_str());
         });
         close(inner);
         if (!remove_entry(top, name)) return;
@@ -86,7 +95,7 @@ void remove_abandoned_folders() {
   const int parent = open(parent_of_all().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   for_each_entry(parent, [&](const char* name) {
     struct stat found = {};
-    if (!std::string_view(name).starts_with(prefix) ||
+    if (!std::string_view(name).starts_with(prefix()) ||
         fstatat(parent, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || found.st_uid != geteuid())
       return;
     int folder = open_folder(parent, name);  // which may be in use: its permissions stay
@@ -105,7 +114,7 @@ TemporaryFolder::TemporaryFolder() {
                     ": no folder can be made there: " + std::generic_category().message(errno));
   };
   for (;;) {
-    std::string name = (parent / (std::string(prefix) + "XXXXXX")).string();
+    std::string name = (parent / (prefix() + "XXXXXX")).string();
     if (mkdtemp(name.data()) == nullptr) fail();
     path_ = name;
     lock_ = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -28,7 +28,9 @@
 #include "bench/run/threads_at_hand.hpp"
 #include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
+#include "support/atomic_file.hpp"
 #include "support/called_as.hpp"
+#include "support/folder_lock.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
 
@@ -155,18 +157,26 @@ std::vector<PosedScene> levels_of(const std::vector<PosedScene>& scenes, const O
   return levels;
 }
 
-std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
+// Of --adapt: goals that were not reached; --out is locked, as meshes are there.
+struct Adapted {
+  std::vector<std::string> short_of;
+  std::optional<FolderLock> lock;
+};
+
+std::vector<Case> plan_of(const Options& options, Adapted& adapted) {
   std::vector<PosedScene> scenes = posed_scenes(options);
+  if (!options.adapt.empty()) check_adapting_method(options);
   if (!options.adapt.empty() && (options.dry_run || options.explain)) {
-    check_adapting_method(options);
     std::cerr
         << "note: --adapt: of the first level alone; the others are known when it is solved\n";
   } else if (!options.adapt.empty()) {
-    scenes = levels_of(scenes, options, short_of);
+    make_folder(options.out);
+    adapted.lock.emplace(options.out);
+    scenes = levels_of(scenes, options, adapted.short_of);
   }
   std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options);
   if (!options.filter.empty()) plan = matching(std::move(plan), options.filter, options.interleave);
-  if (plan.empty() && short_of.empty())
+  if (plan.empty() && adapted.short_of.empty())
     throw UsageError("no case is left: the arguments after -- select none");
   return plan;
 }
@@ -205,10 +215,10 @@ int run_command(int argc, const char* const* argv) {
   if (!only_plans) require_threads(options.threads);
   if (!only_plans) check_takes_records(options.out);  // before meshes are written there
   if (!options.adapt.empty() && !only_plans)
-    catch_interrupts();               // adapting solves; a signal just ends other planning
-  std::vector<std::string> short_of;  // goals of --adapt that were not reached
-  const std::vector<Case> whole = plan_of(options, short_of);
-  for (const std::string& why : short_of) std::cerr << fmt::format("note: {}\n", why);
+    catch_interrupts();  // adapting solves; a signal just ends other planning
+  Adapted adapted;
+  const std::vector<Case> whole = plan_of(options, adapted);
+  for (const std::string& why : adapted.short_of) std::cerr << fmt::format("note: {}\n", why);
   if (whole.empty()) return some_case_failed;
   const std::vector<Case> plan = part_of(whole, options.shard);
   if (plan.empty())
@@ -230,7 +240,7 @@ int run_command(int argc, const char* const* argv) {
   ResultsTable table;
   EarlyPasses early;
   std::vector<double> noise;
-  bool all_solved = short_of.empty();
+  bool all_solved = adapted.short_of.empty();
   const std::size_t cases = result.names.size();
   for (std::size_t k = 0; k < cases; ++k) {
     const Record record = result.record(k);

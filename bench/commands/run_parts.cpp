@@ -53,12 +53,12 @@ void note_out_of_reach(const PosedScene& posed) {
 }
 
 void note_matching(const PosedScene& posed) {
-  const auto& [inserted, moved] = posed.body()->matching;
-  if (inserted + moved > 0)
+  const Problem::Matching& matching = posed.body()->matching;
+  if (matching.inserted + matching.moved > 0)
     std::cerr << fmt::format(
         "note: {}/{}: faces that press on each other are matched: {} vertices put in, {} moved, "
         "smallest angle {:.1f}°\n",
-        posed.body()->mesh.name, posed.scene_name, inserted, moved,
+        posed.body()->mesh.name, posed.scene_name, matching.inserted, matching.moved,
         mesh_quality(posed.body()->mesh).smallest_angle_deg);
 }
 

@@ -164,7 +164,9 @@ class ProgramSolve {
     return end.start_error != 0 ? Status::machine_fault
            : end.timed_out      ? Status::timeout
            : end.over_memory    ? Status::out_of_memory
-                                : Status::crashed;
+           : !end.oom_killed    ? Status::crashed
+           : *end.oom_killed    ? Status::out_of_memory
+                                : Status::machine_fault;  // killed by somebody
   }
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -52,6 +52,11 @@ void check_files(const fs::path& folder) {
   if (const auto packed = folder / "records.jsonl.gz"; fs::exists(packed, error))
     throw FileError(packed.string() +
                     ": packed records are only read (allowed: another folder, or gunzip before)");
+  if (fs::exists(folder / "records.jsonl", error)) return;
+  for (const char* name : {"results.csv", "results.json"})
+    if (fs::exists(folder / name, error))
+      throw FileError((folder / name).string() +
+                      ": is of no records.jsonl there (allowed: another folder)");
 }
 
 fs::path folder_for_records(const fs::path& folder) {

@@ -225,7 +225,7 @@ void Evidence::over_meshes(
     }
   if (ratios.empty()) return;
   figure(fmt::format("{}: {}", label, joined(texts)));
-  const Ratio all = spread(ratios);
+  const Ratio all = ratios.size() == 1 ? ratios.front() : spread(ratios);
   const std::string text =
       fmt::format("{} on {} mesh{}", label, ratios.size(), ratios.size() == 1 ? "" : "es");
   if (range && ratios.size() == meshes.size())

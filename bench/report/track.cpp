@@ -64,13 +64,14 @@ void compare_case(const std::vector<TrackedRun>& runs, const Record& now,
         last->status == Status::ok ? Kind::worse
         : now.status == Status::ok ? Kind::better
                                    : Kind::changed);
+  if (!has_answer(now.status)) return;  // counts of a run that was stopped are lower bounds
   bool another_error = false;
   for (const Lane lane : {Lane::counters, Lane::errors})
     for (const Field* field : fields_with(lane == Lane::counters ? counter : error)) {
       const auto after = number_in(now, *field);
       if (!after) continue;
       const Record* record = earlier(runs, name, [&](const TrackedRun& run, const Record& before) {
-        return number_in(before, *field) &&
+        return has_answer(before.status) && number_in(before, *field) &&
                ((field->use & of_libraries) == 0 || same_libraries(run, runs.back()));
       });
       if (record == nullptr) continue;

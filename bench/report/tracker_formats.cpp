@@ -100,6 +100,17 @@ constexpr std::array<Measure, 4> measures = {
      {"error_stress", "error of the stresses", "relative", "error-stress", 1, 1},
      {"error_force", "error of the contact forces", "relative", "error-force", 1, 1}}};
 
+// Of an answer: counts of a run that was stopped are lower bounds.
+std::optional<double> value_in(const Record& record, const Measure& measure) {
+  if (!has_answer(record.status)) return {};
+  return number_in(record, field_named(measure.field));
+}
+
+std::optional<Interval> interval_in(const Record& record, const Measure& measure) {
+  if (measure.field != std::string_view("time_s") || record.repetitions < 2) return {};
+  return time_interval(record);
+}
+
 }  // namespace
 
 std::string junit_xml(const std::vector<Record>& cases) {
@@ -125,15 +136,15 @@ std::string github_action_json(const std::vector<Record>& cases) {
       if (const std::string word = context_word(record, key); !word.empty())
         extra += fmt::format("\n{}: {}", key, word);
     for (const Measure& measure : measures) {
-      const auto value = number_in(record, field_named(measure.field));
+      const auto value = value_in(record, measure);
       if (!value) continue;
       Json& entry = entries.emplace_back();
       entry["name"] = name_of(record).text() + " " + measure.github_name;
       entry["unit"] = measure.github_unit;
       entry["value"] = *value * measure.github_units;
-      if (measure.field == std::string_view("time_s"))
-        entry["range"] = fmt::format("{:.4g} to {:.4g}", time_interval(record).low * 1e3,
-                                     time_interval(record).high * 1e3);
+      if (const auto interval = interval_in(record, measure))
+        entry["range"] = fmt::format("{:.4g} to {:.4g}", interval->low * measure.github_units,
+                                     interval->high * measure.github_units);
       entry["extra"] = extra;
     }
   }
@@ -144,13 +155,14 @@ std::string bencher_json(const std::vector<Record>& cases) {
   Json all = Json::object();
   for (const Record& record : cases)
     for (const Measure& measure : measures) {
-      const auto value = number_in(record, field_named(measure.field));
+      const auto value = value_in(record, measure);
       if (!value) continue;
       Json& entry = all[name_of(record).text()][measure.bencher_name];
       entry["value"] = *value * measure.bencher_units;
-      if (measure.field != std::string_view("time_s")) continue;
-      entry["lower_value"] = time_interval(record).low * measure.bencher_units;
-      entry["upper_value"] = time_interval(record).high * measure.bencher_units;
+      const auto interval = interval_in(record, measure);
+      if (!interval) continue;
+      entry["lower_value"] = interval->low * measure.bencher_units;
+      entry["upper_value"] = interval->high * measure.bencher_units;
     }
   return indented_json_text(all, 2) + "\n";
 }

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <set>
 
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
@@ -43,6 +45,26 @@ Method adapting_method(const std::string& name) {
   throw UsageError(fmt::format("--adapt: by={} (allowed: {})", shortened(name), allowed));
 }
 
+// Contact groups of which every edge became free, as it faces nothing, are none of the mesh's.
+void forget_groups(Json& json, const std::set<std::string>& groups) {
+  const auto is_gone = [&](const Json& label) {
+    return !groups.contains(label.get<std::string>());
+  };
+  const auto forget = [&](Json& of) {
+    if (of.contains("boundary"))
+      for (auto own = of["boundary"].begin(); own != of["boundary"].end();)
+        own = groups.contains(own.key()) ? std::next(own) : of["boundary"].erase(own);
+    if (of.contains("contacts"))
+      for (Json& pair : of["contacts"])
+        for (Json& side : pair["between"])
+          if (side.is_array())
+            side.erase(std::remove_if(side.begin(), side.end(), is_gone), side.end());
+  };
+  forget(json);
+  if (json.contains("load_steps") && json["load_steps"].is_array())
+    for (Json& step : json["load_steps"]) forget(step);
+}
+
 // Restates the definition for the mesh that it made: each layer is a body there.
 std::string definition_on(const Mesh& mesh, const std::string& definition,
                           const std::string& place) {
@@ -57,7 +79,23 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
   if (!json.contains("wall")) json.emplace("crown_radius_mm", *Scene().crown_radius_mm);
   json.erase("mesh");
   json.erase("layers");
+  std::set<std::string> groups;
+  for (const BoundaryEdge& edge : mesh.boundary) groups.insert(boundary_label(mesh, edge));
+  forget_groups(json, groups);
   return json_text(json);
+}
+
+// What records that stay refer to is not replaced.
+void write_for_records(const std::filesystem::path& file, const std::string& text,
+                       const Options& options) {
+  if (std::error_code error; (options.append || options.resume) &&
+                             std::filesystem::exists(file, error) &&
+                             sha256_of_file(file) != sha256_hex(text))
+    throw InputError(
+        fmt::format("{}: the records of that folder have another file of this name "
+                    "(allowed: the goal and scene that made it, or another --out)",
+                    file.string()));
+  write_file_atomically(file, text);
 }
 
 // MESH+adapt3, for stresses of degree 2 MESH+adapt3k2: runs of several degrees can be joined.
@@ -66,15 +104,7 @@ Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
   level.mesh.name = fmt::format("{}+{}{}{}", mesh_name, options.marking == 1. ? "refined" : "adapt",
                                 level.number, degree > 1 ? fmt::format("k{}", degree) : "");
   const std::filesystem::path file = folder / (level.mesh.name + ".msh");
-  const std::string text = msh_text(level.mesh);
-  if (std::error_code error; options.append && !options.resume &&
-                             std::filesystem::exists(file, error) &&
-                             sha256_of_file(file) != sha256_hex(text))
-    throw InputError(
-        fmt::format("{}: the records of that folder have another mesh of this name "
-                    "(allowed: the goal that made it, or another --out)",
-                    file.string()));
-  write_file_atomically(file, text);
+  write_for_records(file, msh_text(level.mesh), options);
   return {{"file", file.string()},         {"number", level.number},
           {"unknowns", level.unknowns},    {"error", level.error ? Json(*level.error) : Json()},
           {"reaches", level.reaches_goal}, {"angle", level.smallest_angle_deg},
@@ -163,9 +193,9 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
   const std::string name = mesh.name + "/" + start.scene_name;
   const std::string definition = definition_on(mesh, start.scene_definition, name);
   const std::filesystem::path folder = options.out / "meshes" / start.scene_name;
-  make_folder(folder);
-  const std::filesystem::path scene_file = folder / (start.scene_name + ".json");
-  write_file_atomically(scene_file, definition + "\n");
+  const std::filesystem::path scene_file = folder / mesh.name / (start.scene_name + ".json");
+  make_folder(scene_file.parent_path());
+  write_for_records(scene_file, definition + "\n", options);
   const Scene scene = scene_of(definition, scene_file.string());
 
   AdaptedScenes result;

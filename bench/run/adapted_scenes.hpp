@@ -3,7 +3,7 @@
 // Each level is an ordinary mesh with a scene file:
 //   OUT/meshes/SCENE/MESH+adaptK.msh   (MESH+refinedK.msh after uniform refinement;
 //   for stresses of degree 2 MESH+adaptKk2.msh)
-//   OUT/meshes/SCENE/SCENE.json        the scene without its changes to the mesh
+//   OUT/meshes/SCENE/MESH/SCENE.json   the scene without its changes to the mesh
 #pragma once
 
 #include "bench/plan/options.hpp"

@@ -178,6 +178,9 @@ std::pair<Status, std::string> why_no_answer(const ChildEnd& end) {
   if (end.exit_code == no_memory_exit_code)
     return {Status::machine_fault, "the process of its scene ended for lack of memory"};
   if (is_unheard(end)) return {Status::machine_fault, "the channel to its scene's process failed"};
+  if (end.signal == SIGKILL || end.used_up_processor_time)
+    return {Status::machine_fault,
+            "the process of its scene was killed by " + signal_name(end.signal)};
   return {Status::crashed, "the process of its scene ended"};
 }
 

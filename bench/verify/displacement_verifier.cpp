@@ -153,7 +153,7 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
   result.equilibrium_residual = scale.relative_force(unbalanced, balance.largest);
   result.unbalanced_N = resultant.norm();
   result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;
-  result.unstressed = result.strain_energy_Nmm == 0;
+  result.unstressed = scale.is_no_energy(std::sqrt(2 * result.strain_energy_Nmm));
   if (control.law.count == 0) return result;
   const ContactPoints& law = control.law;
   const Eigen::VectorXd& F = solution.F_C;

@@ -270,7 +270,7 @@ Verification verify(const DualSystem& system, const Solution& solution,
   if (reference != nullptr) {
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
     const double distance = stress_distance(problem, solution.stress, reference->stress);
-    result.unstressed = reference_norm == 0;
+    result.unstressed = scale.is_no_energy(reference_norm);
     result.error_stress = scale.relative_energy(distance, reference_norm);
     result.error_stress_absolute = distance;
     result.reference_error = reference->error_estimate;

@@ -8,8 +8,8 @@ from matplotlib.patches import Rectangle
 from drawing import SMALLEST_PT, Drawing, axes_at, sheet
 from outcomes import MARKS, SIZE, Key, in_blocks
 from records import Row
-from selection import by_mesh, by_method, of_scene, order
-from words import csv_of, percent, plain, seconds, short, threads
+from selection import by_mesh, by_method, by_stop, of_scene, order, with_suffix
+from words import at_stop, csv_of, percent, plain, seconds, short, threads
 
 CELL, NARROWEST, ROW, ABOVE, BETWEEN = 1.2, 1.02, 0.36, 0.6, 0.1  # inches
 LETTER = 0.078  # inches: of a name's letter, about
@@ -19,8 +19,8 @@ COLUMNS = ("mesh", "body", "n_phi", "error_total", "method", "outcome", "time_s"
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "adapted"])
-    if study:
-        yield Drawing("adapted_methods", study, draw, table_of)
+    for stop, own in by_stop(study).items():
+        yield Drawing(with_suffix("adapted_methods", stop), own, draw, table_of)
 
 
 def table_of(rows: list[Row]) -> str:
@@ -54,7 +54,7 @@ def draw(rows: list[Row]) -> Figure:
     key = Key(rows, ("", "ok"))
     body = 0.3 + len(blocks) * (block + BETWEEN) + key.height
     figure = sheet(
-        body, "Methods on adapted meshes",
+        body, f"Methods on adapted meshes{at_stop(rows)}",
         f"Scene {rows[0].scene}, {threads(rows)}. A column is a mesh, with its total error. A "
         "cell: time of one solve; below it the larger of the relative errors of stresses and contact "
         "forces, and κ, an estimate of the 1-norm condition number of the matrix that the method "

@@ -14,8 +14,8 @@ from matplotlib.patches import Rectangle
 from drawing import SMALLEST_PT, Drawing, axes_at, file_name, sheet
 from outcomes import MARKS, SIZE, Key, in_blocks
 from records import Row
-from selection import by_mesh, by_method, order
-from words import csv_of, plain, width_of
+from selection import by_mesh, by_method, by_stop, order, with_suffix
+from words import at_stop, csv_of, plain, width_of
 
 CELL, NARROWEST, ROW, TITLE, BETWEEN = 0.32, 0.112, 0.16, 0.42, 0.25  # inches
 WITH_DIGITS = 0.2  # inches: a cell in which an ok case's digits have room
@@ -46,8 +46,9 @@ def scenes_of(rows: list[Row]) -> list[tuple[str, str]]:
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    for mesh, own in by_mesh([row for row in rows if row.study == "stability"]).items():
-        yield Drawing(file_name("stability", mesh), own, draw, table_of)
+    for mesh, study in by_mesh([row for row in rows if row.study == "stability"]).items():
+        for stop, own in by_stop(study).items():
+            yield Drawing(with_suffix(file_name("stability", mesh), stop), own, draw, table_of)
 
 
 def table_of(rows: list[Row]) -> str:
@@ -77,7 +78,8 @@ def draw(rows: list[Row]) -> Figure:
               ("12", "ok, with the digits of its largest error"))
     body = TITLE + len(grids) * (block + BETWEEN) + key.height
     figure = sheet(
-        body, f"Stability on {rows[0].mesh}: {len(methods)} methods in {len(scenes)} scenes",
+        body, f"Stability on {rows[0].mesh}: {len(methods)} methods in {len(scenes)} scenes"
+        f"{at_stop(rows)}",
         "A column is a method, a row an extreme scene, by group. ok: all errors and residuals at "
         "most the target; " + ("the deeper its blue, the smaller its errors of stresses and contact "
                                "forces, from 1e-6 to 1e-15. " if deep else

@@ -44,13 +44,13 @@ def looks_of(rows: list[Row]) -> dict[str, tuple[str, str]]:
 
 
 def iterations(row: Row) -> float | None:
-    if not row.completed or row.contact_iterations is None:
+    if not row.solved or row.contact_iterations is None:
         return None
     return row.contact_iterations + (row.newton_steps or 0)
 
 
 def seconds(row: Row) -> float | None:
-    return row.stage_contact_s if row.completed else None
+    return row.stage_contact_s if row.solved else None
 
 
 QUANTITIES = ((seconds, "time of the contact law, s"), (iterations, "iterations"))
@@ -65,7 +65,7 @@ def draw(rows: list[Row]) -> Figure | str:
     if not any(seconds(row) and row.n_c for row in rows):
         return "no case of the contact study has a time"
     scenes = grouped(rows, lambda row: row.scene)
-    failed = [row for row in rows if not row.completed]
+    failed = [row for row in rows if not row.solved]
     looks = looks_of(rows)
     programs = list(looks)[len(CONTACT_SOLVERS):]
     key_lines = math.ceil(len(looks) / A_LINE)
@@ -78,9 +78,8 @@ def draw(rows: list[Row]) -> Figure | str:
         "(newton); iterations (admm). " +
         (f"Other programs: {', '.join(programs)}; their time is that of the contact law by their own "
          "clock, their iterations as they report them. " if programs else "") +
-        (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases were not solved within "
-         "the iterations or the time allowed." if failed else "All cases were solved."),
-        lacking([row for row in rows if row.completed], {"time": seconds, "iterations": iterations}, solver_of))
+        (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases did not end `ok`." if failed else "All cases were solved."),
+        lacking([row for row in rows if row.solved], {"time": seconds, "iterations": iterations}, solver_of))
     xlim = log_limits([row.n_c for row in rows if row.n_c], 1.3)
     for k, (of, words) in enumerate(QUANTITIES):
         ylim = log_limits([value for row in rows if (value := of(row))], 1.6)
@@ -108,7 +107,7 @@ def draw_solvers(axes: Axes, rows: list[Row], of: Callable[[Row], float | None],
         known = sorted((row.n_c, of(row)) for row in own if of(row) and row.n_c)
         axes.plot([n for n, _ in known], [value for _, value in known], color=colour,
                   marker=marker, markersize=4, linewidth=1)
-        lost = [row.n_c for row in own if not row.completed and row.n_c]
+        lost = [row.n_c for row in own if not row.solved and row.n_c]
         shift = AT_EDGE - 0.06 * list(looks).index(solver)
         axes.plot(lost, [shift] * len(lost), transform=axes.get_xaxis_transform(), color=colour,
                   marker="x", markersize=6, linestyle="none")

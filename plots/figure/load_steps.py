@@ -6,8 +6,8 @@ from matplotlib.figure import Figure
 from drawing import Drawing, log_limits, log_log, sheet, side_by_side
 from labels import Labels
 from records import Row
-from selection import by_mesh, by_method, line_of
-from words import csv_of, threads, unseen
+from selection import by_mesh, by_method, by_stop, line_of, with_suffix
+from words import at_stop, csv_of, threads, unseen
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.62, 0.55, 0.45, 3.6, 0.15  # inches
 COLUMNS = ("mesh", "method", "load_steps", "status", "time_s", "time_once_s", "time_per_load_s")
@@ -16,9 +16,10 @@ MESHES = 2  # that there is room for
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = [row for row in rows if row.study == "load-steps" and row.load_steps]
-    shown = [row for own in list(by_mesh(study).values())[:MESHES] for row in own]
-    if shown:
-        yield Drawing("load_steps", shown, draw, table_of, vector=True, options=dict(run=study))
+    for stop, run in by_stop(study).items():
+        shown = [row for own in list(by_mesh(run).values())[:MESHES] for row in own]
+        yield Drawing(with_suffix("load_steps", stop), shown, draw, table_of, vector=True,
+                      options=dict(run=run))
 
 
 def table_of(rows: list[Row]) -> str:
@@ -31,7 +32,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     if not timed:
         return "no case of the study of load steps has a time"
     figure = sheet(
-        TOP + HEIGHT + BOTTOM, "Load steps",
+        TOP + HEIGHT + BOTTOM, f"Load steps{at_stop(rows)}",
         "Time of a whole path to the same loads, over the number of its steps. Where a line is level, the "
         "time is what a body costs once, its condensation. Where it rises in proportion, it is what each "
         "step costs: contact law, recovery and check, or a whole solve. "

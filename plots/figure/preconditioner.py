@@ -7,10 +7,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from drawing import TYPE, Drawing, axes_at, log_axis, log_limits, text_at
-from marks import (HEAP, MARGIN, SMALL, TIME, WIDTH, ErrorScale, Footer, Quantity, by_stop,
-                   draw_point, notes_of)
+from marks import (HEAP, MARGIN, SMALL, TIME, WIDTH, ErrorScale, Footer, Quantity, draw_point,
+                   notes_of, of_no_study)
 from records import Row
-from selection import by_body, by_mesh, grouped
+from selection import by_body, by_mesh, grouped, with_suffix
 from words import CASE, EXTRAPOLATED, csv_of, left_out, plain, short
 
 HEADS = {"SSOR": r"SSOR $\omega$"}
@@ -26,10 +26,11 @@ Columns = dict[str, dict[Slot, Row]]  # family -> slot -> row
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    for suffix, own, scale in by_stop(rows):
+    stops, scale = of_no_study(rows)
+    for stop, own in stops.items():
         shown = [row for of_body in by_body(own).values()
                  for column in columns_of(chosen(of_body)).values() for row in column.values()]
-        yield Drawing(f"figure3{suffix}", shown, draw, table_of, vector=True,
+        yield Drawing(with_suffix("figure3", stop), shown, draw, table_of, vector=True,
                       options=dict(run=own, scale=scale))
 
 

@@ -18,7 +18,7 @@ from catalogue import DASHES
 from drawing import PAGE_WIDTH, TYPE, Drawing, log_axis, panel_at, sheet
 from labels import DASHED, LEFT, draw_names
 from records import Row
-from selection import compared, grouped
+from selection import compared, grouped, with_suffix
 from words import counted, csv_of, left_out, threads, width_of
 
 TOP, PANEL, BETWEEN, BOTTOM = 0.45, 2.3, 0.55, 0.5  # inches
@@ -133,8 +133,7 @@ def jumps(values: np.ndarray) -> np.ndarray:
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     for (study, stop), own in grouped([row for row in rows if row.study in SETS],
                                       lambda row: (row.study, row.stop)).items():
-        yield Drawing(f"profiles{SETS[study]}{'_paper_stop' if stop == 'paper' else ''}", own, draw,
-                      table_of)
+        yield Drawing(with_suffix(f"profiles{SETS[study]}", stop), own, draw, table_of)
 
 
 def profiles_of(cases: Cases) -> list[Profile]:

@@ -25,7 +25,7 @@ from drawing import Drawing, sheet, side_by_side
 from figure.profile import CONFIDENCE, SEED, medians_again
 from labels import Labels
 from records import Row
-from selection import by_mesh, grouped, of_scene, order
+from selection import by_mesh, by_stop, grouped, of_scene, order, with_suffix
 from words import columns_of, csv_of, left_out
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.5, 0.55, 0.45, 3.2, 0.45  # inches
@@ -108,9 +108,8 @@ def mesh_for(threads: int, alone: list[Row]) -> str | None:
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "scaling"])
-    for stop, own in grouped(study, lambda row: row.stop).items():
-        yield Drawing(f"scaling{'_paper_stop' if stop == 'paper' else ''}", own, draw, table_of,
-                      vector=True)
+    for stop, own in by_stop(study).items():
+        yield Drawing(with_suffix("scaling", stop), own, draw, table_of, vector=True)
 
 
 def table_of(rows: list[Row]) -> str:

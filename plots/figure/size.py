@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 from catalogue import plain_looks
 from drawing import MATH, TYPE, Drawing, axes_at, log_limits, log_log
 from labels import draw_leader, mark_meshes, name_places
-from marks import (EDGE_AT, HEAP, TIME, WIDTH, ErrorScale, Footer, Quantity, by_stop, draw_point,
-                   marker_style, notes_of)
+from marks import (EDGE_AT, HEAP, TIME, WIDTH, ErrorScale, Footer, Quantity, draw_point,
+                   marker_style, notes_of, of_no_study)
 from records import Row
-from selection import by_body, compared, exponent, grouped, sharing_axes
+from selection import by_body, compared, exponent, grouped, sharing_axes, with_suffix
 from words import CASE, EXTRAPOLATED, csv_of, left_out, plain, width_of
 
 LEFT, BESIDE, TOP, HEIGHT, BOTTOM = 0.62, 1.04, 0.36, 3.9, 0.42  # BESIDE: and a name
@@ -28,10 +28,11 @@ PlainLooks = dict[str, tuple[str, object]]  # method -> marker, dashes
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    for suffix, own, scale in by_stop(rows):
+    stops, scale = of_no_study(rows)
+    for stop, own in stops.items():
         shown = compared(sized(own), ROOM)
         for name, quantity in (("figure4", TIME), ("figure5", HEAP)):
-            yield Drawing(name + suffix, shown, draw, partial(table_of, quantity=quantity),
+            yield Drawing(with_suffix(name, stop), shown, draw, partial(table_of, quantity=quantity),
                           vector=True, options=dict(run=own, quantity=quantity, scale=scale))
 
 

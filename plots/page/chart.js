@@ -15,6 +15,9 @@ const FLAGS = {
 };
 
 const fits = (key, value) => value !== null && (!isError(key) || value > 0);
+// Times of another machine are not compared.
+const follows = (key, nights, k) =>
+    k > 0 && (!key.endsWith("_s") || nights[k].machine === nights[k - 1].machine);
 
 // Values to heights. Errors are on a logarithmic axis; other axes begin at zero or, where all values
 // are far from it, above a break; they span a tenth of the values at least, so that noise does not
@@ -120,20 +123,20 @@ function gridAndTicks(key, axis, x, nights) {
 }
 
 // The bands of the intervals and the lines, in stretches of nights without a gap, and the points.
-function curves(key, axis, x, {values, low, high}) {
+function curves(key, axis, x, {values, low, high}, nights) {
   const stretches = [], at = (k, list) => [x(k), axis.y(list[k])];
   values.forEach((value, k) => {
     if (!fits(key, value)) return;
-    if (k === 0 || !fits(key, values[k - 1])) stretches.push([]);
+    if (!follows(key, nights, k) || !fits(key, values[k - 1])) stretches.push([]);
     stretches[stretches.length - 1].push(k);
   });
-  const shapes = stretches.flatMap((nights) => {
-    const bounded = nights.filter((k) => low && high && fits(key, low[k]) && fits(key, high[k]));
+  const shapes = stretches.flatMap((stretch) => {
+    const bounded = stretch.filter((k) => low && high && fits(key, low[k]) && fits(key, high[k]));
     const around = [
       ...bounded.map((k) => at(k, high)), ...bounded.map((k) => at(k, low)).reverse()
     ];
     // "h0" makes a dot of a single night.
-    const line = drawn("path", {class: "curve", d: path(nights.map((k) => at(k, values))) + "h0"});
+    const line = drawn("path", {class: "curve", d: path(stretch.map((k) => at(k, values))) + "h0"});
     return bounded.length < 2 ? [line] :
                                 [drawn("path", {class: "band", d: `${path(around)}Z`}), line];
   });
@@ -173,7 +176,8 @@ const breakable = (name) =>
 
 // data-* attributes say what the panel shows.
 function panel(title, where, key, series, nights, marks) {
-  const {values} = series, [last, before = null] = [...values].reverse();
+  const {values} = series, newest = values.length - 1, last = values[newest];
+  const before = follows(key, nights, newest) ? values[newest - 1] : null;
   const axis = verticalAxis(key, [...values, ...(series.low || []), ...(series.high || [])]);
   const x = horizontal(nights.length);
   const label = `${title} ${where}: ${show(key, last)} in the last of ${nights.length} nights`;
@@ -182,7 +186,7 @@ function panel(title, where, key, series, nights, marks) {
       {viewBox: `0 0 ${BOX.width} ${BOX.height}`, role: "img", tabindex: 0, "aria-label": label},
       ...gridAndTicks(key, axis, x, nights), ...dateLabels(nights, x),
       ...revisionLabels(nights, marks, x),
-      ...(axis ? curves(key, axis, x, series) : []), ...failuresAndMarks(x, series.status, marks));
+      ...(axis ? curves(key, axis, x, series, nights) : []), ...failuresAndMarks(x, series.status, marks));
   followPointer(svg, nights.length, x, (k) => tipText(key, series, nights, marks, k),
                 (k) => axis && fits(key, values[k]) ?
                     [drawn("circle", {class: "point", cx: x(k), cy: axis.y(values[k]), r: 4})] : []);

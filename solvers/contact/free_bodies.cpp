@@ -90,6 +90,10 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
   return result;
 }
 
+double unbalanced_share(const FreeBodies& free, const Eigen::VectorXd& F) {
+  return free.is_empty() ? 0 : Unbalanced(free, F).relative;
+}
+
 void refuse_free_bodies(const ContactPoints& contact) {
   if (contact.free.is_empty()) return;
   throw Breakdown(contact.free.bodies.front() +

@@ -21,6 +21,10 @@ namespace airybench {
 ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
                                      const Deadline& deadline);
 
+// The largest load on a motion that contact leaves, over the largest sum of forces on one; 0
+// without free bodies.
+double unbalanced_share(const FreeBodies& free, const Eigen::VectorXd& F);
+
 // For methods without D. Throws Breakdown.
 void refuse_free_bodies(const ContactPoints& contact);
 

@@ -76,6 +76,8 @@ void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower, int traili
   } else {
     factor_ = cholmod_analyze(&whole, &common_);
   }
+  if (factor_ == nullptr && common_.status == CHOLMOD_TOO_LARGE)
+    throw Breakdown("CHOLMOD: its factor would have more than 2^31 entries");
   if (factor_ == nullptr) throw std::bad_alloc();
 }
 

@@ -148,6 +148,8 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
 
 Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) {
   refuse_free_bodies(airy.contact);
+  if (!airy.contact.opposite.empty())
+    throw Breakdown("bodies in contact with each other: HYBRID:CG knows walls only");
   const auto body = std::make_shared<KrylovBody>();
   Solution solution;
   make_two_levels(airy, control, *body, solution);

@@ -5,6 +5,7 @@
 
 #include "assembly/dual_system.hpp"
 #include "assembly/scene.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
@@ -28,8 +29,8 @@ TEST(BoundaryValues, GroupsHaveTheirOwnAndTheRestTheScenes) {
   Scene scene;
   scene.displacement_mm = {0.5, 0.25};
   scene.boundary["displacement:root"].displacement_mm =
-      Vector{{Eigen::Vector2d(1, 0), Eigen::Vector2d(3, 0)},
-             {Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 10)}};
+      Vector{{Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 0.5)},
+             {Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 10)}};  // equal where they meet, at y = 5
   scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{7, 7}};
   scene.boundary["force:bottom"].traction_MPa = constant(1, 2);
   Mesh mesh = testing::small_block(4, 4, 0);
@@ -43,10 +44,10 @@ TEST(BoundaryValues, GroupsHaveTheirOwnAndTheRestTheScenes) {
   };
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const std::string label = boundary_label(mesh, mesh.boundary[row]);
-    const Eigen::Vector2d x(2, 5), n(0, 1);
+    const Eigen::Vector2d x(2, 2), n(0, 1);
     const auto& loads = problem.loads;
     if (label == "displacement:root") {
-      EXPECT_LT((u0(x, row) - Eigen::Vector2d(2, 0)).norm(), 1e-15);
+      EXPECT_LT((u0(x, row) - Eigen::Vector2d(0.8, 0.1)).norm(), 1e-15);
     } else if (label == "displacement") {
       EXPECT_LT((u0(x, row) - Eigen::Vector2d(0.5, 0.25)).norm(), 1e-15);
     } else if (label == "force:top") {
@@ -93,12 +94,7 @@ std::string complaint(const std::function<void(Scene&)>& spoil,
   Scene scene;
   scene.source = "s.json";
   spoil(scene);
-  try {
-    pose(scene, std::move(mesh));
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return testing::complaint_of<SceneError>([&] { pose(scene, std::move(mesh)); });
 }
 
 TEST(BoundaryValues, ContradictionsAreRefused) {
@@ -138,6 +134,40 @@ TEST(BoundaryValues, ContradictionsAreRefused) {
                  }),
             "s.json: boundary: force:top: pressure_MPa: at_mm: [3, 4] twice (allowed: two "
             "different points)");
+}
+
+TEST(BoundaryValues, DisplacementsThatJumpAreRefused) {
+  Mesh mesh = testing::small_block(4, 4, 0);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (boundary_label(mesh, edge) == "force:bottom")
+      edge = {edge.vertices, BoundaryRole::displacement, boundary_group(mesh, "floor")};
+  const auto with = [&](const Vector& root, const Vector& floor, bool root_rolls,
+                        bool floor_rolls) {
+    Scene scene;
+    scene.source = "s.json";
+    const auto set = [&](const char* label, const Vector& value, bool rolls) {
+      scene.boundary[label].displacement_mm = value;
+      scene.boundary[label].support = rolls ? Support::normal : Support::full;
+    };
+    set("displacement:root", root, root_rolls);
+    set("displacement:floor", floor, floor_rolls);
+    return testing::complaint_of<SceneError>([&] { pose(scene, mesh); });
+  };
+  const Vector turning{{Eigen::Vector2d(1, 0), Eigen::Vector2d(2, 7)},
+                       {Eigen::Vector2d(0, 0), Eigen::Vector2d(10, 0)}};
+  EXPECT_EQ(with(constant(1, 0), turning, false, false), "no complaint");
+  EXPECT_EQ(with(constant(1, 0), constant(3, 0), false, true), "no complaint");
+  EXPECT_EQ(with(constant(1, 2), constant(3, 0), true, true), "no complaint");
+  const std::string jump =
+                        "s.json: boundary: displacement:floor and displacement:root: "
+                        "displacement_mm: ",
+                    allowed =
+                        " at their common vertex [0, 0] (allowed: equal, of rollers along "
+                        "their normal)";
+  EXPECT_EQ(with(constant(1, 0), constant(3, 0), false, false),
+            jump + "[3, 0] and [1, 0]" + allowed);
+  EXPECT_EQ(with(constant(1, 2), constant(1, 0), false, true),
+            jump + "[1, 0] and [1, 2]" + allowed);
 }
 
 TEST(BoundaryValues, ABodyThatIsNotHeldIsRefusedAndItsFreeMotionNamed) {

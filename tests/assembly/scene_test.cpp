@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/msh_format.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 
@@ -12,12 +13,7 @@ namespace {
 using testing::small_tooth;
 
 std::string complaint(const Scene& scene, const Mesh& mesh) {
-  try {
-    pose(scene, mesh);
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "none";
+  return testing::complaint_of<SceneError>([&] { pose(scene, mesh); });
 }
 
 TEST(Scene, CrownIsCentredOnEachToothsAxis) {
@@ -88,9 +84,9 @@ TEST(Scene, GeometryThatTheMeshHasIsAccepted) {
   scene.length_mm = 10;
   scene.tip_half_height_mm = 3;
   scene.teeth = 1;
-  EXPECT_EQ(complaint(scene, small_tooth(4, 4)), "none");
+  EXPECT_EQ(complaint(scene, small_tooth(4, 4)), "no complaint");
   scene.teeth = 4;
-  EXPECT_EQ(complaint(scene, testing::catalogue_mesh("Mesh4")), "none");
+  EXPECT_EQ(complaint(scene, testing::catalogue_mesh("Mesh4")), "no complaint");
 }
 
 TEST(Scene, ContradictionsAndImpossibleValuesAreNamed) {
@@ -126,6 +122,19 @@ TEST(Scene, ContradictionsAndImpossibleValuesAreNamed) {
         s.materials["rubber"] = {1, 0.3};
       }),
       "default scene: materials: rubber is no body of the mesh small tooth (its bodies: body)");
+}
+
+TEST(Scene, ACrownNeedsStraightFaces) {
+  Mesh mesh = testing::small_block(4, 4, 30);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (boundary_label(mesh, edge) == "force:top")
+      edge = {edge.vertices, BoundaryRole::contact, boundary_group(mesh, "top")};
+  EXPECT_EQ(complaint(Scene(), mesh),
+            "default scene: crown_radius_mm: 400 on the mesh small block, where a contact face is "
+            "bent (allowed: straight faces, walls, or null, for no crown)");
+  Scene flat;
+  flat.crown_radius_mm.reset();
+  EXPECT_EQ(complaint(flat, mesh), "no complaint");
 }
 
 TEST(Scene, EveryBodyCanHaveItsMaterial) {

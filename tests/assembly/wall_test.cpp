@@ -9,6 +9,7 @@
 #include "assembly/dual_system.hpp"
 #include "assembly/edge_forces.hpp"
 #include "assembly/scene.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
@@ -173,12 +174,7 @@ TEST(Wall, ContactGroupsHaveTheirOwnWallFrictionAndClearance) {
 }
 
 std::string complaint(const Scene& scene) {
-  try {
-    pose(scene, testing::small_block(4, 4, 0));
-  } catch (const SceneError& error) {
-    return error.what();
-  }
-  return "none";
+  return testing::complaint_of<SceneError>([&] { pose(scene, testing::small_block(4, 4, 0)); });
 }
 
 TEST(Wall, WhatCannotBeAWall) {

@@ -195,9 +195,29 @@ TEST(ForeignModel, ACutOrDamagedGzipIsRefused) {
 }
 
 TEST(ForeignModel, SizesAreInMillimetresWhateverTheUnit) {
-  const Mesh mesh = convert_model(model("metres.geo"), model_options_of({}, {}, "0.5", "m")).mesh;
-  EXPECT_GT(mesh_sizes(mesh).contact_edges, 18);
-  EXPECT_LT(mesh_sizes(mesh).contact_edges, 24);
+  const testing::TemporaryFolder folder;
+  for (const char* factor : {"", "Mesh.MeshSizeFactor = 0.5;\n"}) {
+    const auto file =
+        testing::write_text(folder / "metres.geo", testing::text_of(model("metres.geo")) + factor);
+    const Mesh mesh = convert_model(file, model_options_of({}, {}, "0.5", "m")).mesh;
+    EXPECT_GT(mesh_sizes(mesh).contact_edges, 18) << factor;
+    EXPECT_LT(mesh_sizes(mesh).contact_edges, 24) << factor;
+  }
+}
+
+// The chord of the bent line crosses the notch.
+TEST(ForeignModel, BentLinesAreNotTakenForTheirChords) {
+  const testing::TemporaryFolder folder;
+  const auto file = testing::write_text(folder / "notch.geo", R"(
+Point(1) = {0, 0, 0, 1}; Point(2) = {0, -5, 0, 1}; Point(3) = {10, -5, 0, 1};
+Point(4) = {10, 0, 0, 1}; Point(5) = {10, 5, 0, 1}; Point(6) = {6, 5, 0, 1};
+Point(7) = {5, -2, 0, 1}; Point(8) = {4, 5, 0, 1}; Point(9) = {0, 5, 0, 1};
+Line(1) = {1, 2, 3, 4}; Line(2) = {4, 5}; Line(3) = {5, 6}; Line(4) = {6, 7}; Line(5) = {7, 8};
+Line(6) = {8, 9}; Line(7) = {9, 1};
+Curve Loop(1) = {1:7}; Plane Surface(1) = {1};
+)");
+  const Mesh mesh = convert_model(file, model_options_of({"2=displacement"}, {}, "")).mesh;
+  EXPECT_NEAR(testing::length_of_boundaries(mesh).at("displacement"), 5, 1e-9);
 }
 
 // MSH 2 has as many tags as a program likes; Gmsh wants two.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "support/errors.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -58,6 +60,15 @@ TEST_F(GeoScriptFile, AnyBytesAreRead) {
   for (const std::string text : {"", "\"", "/*", "//", "Include", "DefineConstant[", "Include \"",
                                  "Name", "\\x80\\xff[{(\"\\n"})
     EXPECT_EQ(read(text).files.size(), 1u) << text;
+}
+
+TEST_F(GeoScriptFile, Packed) {
+  const auto file = testing::write_text(folder / "a.geo",
+                                        "DefineConstant[ h = 1 ];\nField[1] = ExternalProcess;\n");
+  ASSERT_EQ(std::system(("gzip '" + file.string() + "'").c_str()), 0);
+  const GeoScript script = read_geo_script(folder / "a.geo.gz");
+  EXPECT_EQ(script.constants, (Names{"h"}));
+  EXPECT_TRUE(script.has_external_process);
 }
 
 TEST_F(GeoScriptFile, NoSuchFile) { EXPECT_THROW(read_geo_script(folder / "no.geo"), FileError); }

@@ -76,6 +76,23 @@ class EveryMethodTest(unittest.TestCase):
         self.assert_named(self.words(study("adapted", condition_estimate=1e9)), "adapted_methods")
         self.assert_named(self.words(study("stability", scene_group="loads")), "stability_Mesh0")
 
+    def test_a_figure_for_each_stop(self) -> None:
+        for name, cells, figure in (("stability", dict(scene_group="loads"), "stability_Mesh0"),
+                                    ("adapted", {}, "adapted_methods"), ("load-steps", dict(load_steps=2), "load_steps")):
+            own = [case for case in study(name, **cells) if case["mesh"] == "Mesh0"]
+            paper = [case | dict(stop="paper") for case in own if case["method"] == "ALM"]
+            drawn = {drawing.name: drawing.rows for drawing in figures.drawings_of(made_up.read(own + paper))}
+            self.assertEqual((len(drawn[figure]), len(drawn[f"{figure}_paper_stop"])), (len(own), 1))
+
+    def test_only_the_figure_of_contact_mixes_solvers_of_the_contact_law(self) -> None:
+        other = [case | dict(contact_solver="admm") for case in study("")]
+        own = [case | dict(contact_solver="newton") for case in study("")]
+        for rows, count in ((own + other, len(own)), (other, len(other))):
+            drawn = figures.drawings_of(made_up.read(rows))
+            self.assertEqual({len(drawing.rows) for drawing in drawn if drawing.name == "profiles"}, {count})
+            self.assertLessEqual(max(len(drawing.rows) for drawing in drawn), count)
+        self.assertEqual(figures.why_undrawn(*made_up.read([other[0]]), made_up.read(own)), "contact law by admm")
+
     def test_contact_solvers_and_programs(self) -> None:
         own = dict(study="contact", stage_contact_s=1e-3)
         rows = [made_up.case("Mesh0", "HYBRID", contact_solver=solver, contact_iterations=5, **own)

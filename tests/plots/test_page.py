@@ -104,6 +104,17 @@ class PageTest(unittest.TestCase):
         self.assertEqual(len(lost.all("circle", class_="point")), made_up.NIGHTS - 1)
         self.assertEqual(lost.one("span", class_="now").words, "–")
 
+    def test_times_of_another_machine_are_not_joined(self) -> None:
+        history = made_up.write_history(self.folder / "moved")
+        last = max((history / "nights").iterdir())
+        last.write_text(last.read_text(encoding="utf-8").replace("A processor", "Another"), encoding="utf-8")
+        slow = self.panels(self.shown(page=self.make(history, name="moved.html")))[made_up.SLOW_CASE]
+        self.assertEqual(len(slow.all("path", class_="curve")), 2)
+        self.assertEqual(slow.one("span", class_="step").words, "")
+        here = self.panels(self.shown())[made_up.SLOW_CASE]
+        self.assertEqual(len(here.all("path", class_="curve")), 1)
+        self.assertIn("%", here.one("span", class_="step").words)
+
     def test_an_axis_begins_at_zero_or_has_a_break_and_its_ends_are_dated(self) -> None:
         panels = self.panels(self.shown())
         found = set()

@@ -189,11 +189,11 @@ class BodiesTest(unittest.TestCase):
         self.assertEqual(self.bodies([case("punch1", "3STEPD"), stretched]), ["punch", "punch"])
 
     def test_without_measures_the_names_tell(self) -> None:
-        meshes = ("punch1", "dovetail1", "punch12", "Mesh0", "Mesh4", "Mesh7-refined1")
+        meshes = ("punch1", "dovetail1", "punch12", "Mesh0", "Mesh4", "Mesh7-refined1", "Mesh7+refine2")
         columns = [column for column in made_up.COLUMNS if column not in MEASURES]
         self.assertEqual(self.bodies([case(mesh, "3STEPD") for mesh in meshes], columns),
                          ["punch", "dovetail", "punch", "one tooth", "rack of four teeth",
-                          "rack of four teeth"])
+                          "rack of four teeth", "rack of four teeth"])
 
     def test_the_catalogues_meshes(self) -> None:
         for mesh, ours in (("Mesh0", "Mesh0"), ("Mesh7-refined2", "Mesh7"), ("Mesh70", None),

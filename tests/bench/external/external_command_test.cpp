@@ -1,9 +1,5 @@
-// Other people's programs through the bench command: honest ones, on all kinds of scenes, and wrong
-// declarations.
-#include <fmt/format.h>
+// Other people's programs through the bench command, on all kinds of scenes.
 #include <gtest/gtest.h>
-
-#include <algorithm>
 
 #include "tests/bench/external/programs.hpp"
 #include "tests/support/background_run.hpp"
@@ -35,16 +31,30 @@ TEST_F(ExternalCommand, AnHonestAnswerIsOkWithItsOwnNumbers) {
     EXPECT_EQ(r["status"], "ok") << r["status_reason"];
     EXPECT_EQ(r["family"], "EXTERNAL:" + name);
     EXPECT_EQ(r["program"], name + " 1.0");
-    EXPECT_GT(r["program_s"], r["time_s"].get<double>() / 1e6);
+    EXPECT_GE(r["program_s"], 0.1);  // it sleeps so long, which its own clock leaves out
+    EXPECT_GE(r["time_s"], 2e-6);
     EXPECT_GT(r["processor_s"], 0);
     EXPECT_GT(r["peak_rss_bytes"], 0);
     EXPECT_TRUE(r["peak_heap_bytes"].is_null());
-    EXPECT_TRUE(r["stage_contact_s"].is_number());
+    EXPECT_GE(r["stage_contact_s"], 1e-6);
     EXPECT_EQ(r["parameters"], "none");
     EXPECT_EQ(r["contact_iterations"], 7);
     EXPECT_EQ(r["in_displacements"], name == "body");
     EXPECT_EQ(r["error_force"].is_null(), name == "body");
   }
+}
+
+// Its own forces balance, and nothing else asks whether it presses where there is a gap.
+TEST_F(ExternalCommand, StressWhereThereIsNoneIsInaccurate) {
+  Scene pressed;
+  pressed.displacement_mm = {0.01, 0};
+  pressed.crown_radius_mm.reset();
+  write_right(pressed);
+  declare("one", "body", "cp right/* $2");
+  write("scenes/apart.json",
+        R"({"displacement_mm": [0.01, 0], "crown_radius_mm": null, "clearance_mm": 0.02})");
+  const Json record = records_of("--scene=scenes/apart.json", 1).at("one");
+  EXPECT_EQ(record["status"], "inaccurate") << record["status_reason"];
 }
 
 TEST_F(ExternalCommand, ScenesWithoutFrictionAndWithoutContact) {
@@ -129,6 +139,31 @@ TEST_F(ExternalCommand, WhatIsHandedOver) {
   const auto records = records_of("--threads=1", 0);
   EXPECT_EQ(records.at("one")["status"], "ok") << records.at("one")["status_reason"];
   EXPECT_EQ(bench_.content("said"), "1 11 {} {\"a\": 1} {threads 1\n");
+}
+
+// 1e-2 of the target error, then a third of what its own estimate lacks.
+TEST_F(ExternalCommand, IsTightenedUntilItsOwnEstimateIsBelowTheTarget) {
+  write_right();
+  write("right/rough", R"({"status": "inaccurate", "time_s": 1e-6, "error_estimate": 1e-5})");
+  const std::string script =
+      "cp right/* $2; test -f said || mv $2/rough $2/answer.json; echo $3 >> said";
+  declare("one", "condensed", script,
+          {{"command", {"sh", "-c", script, "sh", "{input}", "{output}", "{tolerance}"}},
+           {"first_tolerance", 1e-2}});
+  const Json record = records_of("--target-error=1e-6", 0).at("one");
+  EXPECT_EQ(record["status"], "ok") << record["status_reason"];
+  std::vector<double> said;
+  std::istringstream lines(bench_.content("said"));
+  for (std::string line; std::getline(lines, line);) said.push_back(std::stod(line));
+  ASSERT_GT(said.size(), 2u);
+  EXPECT_DOUBLE_EQ(said[0], 1e-8);
+  for (std::size_t k = 1; k < said.size(); ++k) EXPECT_DOUBLE_EQ(said[k], 1e-8 * (0.1 / 3));
+  EXPECT_EQ(record["tolerance"], said[1]);
+  ASSERT_EQ(record["attempts"].size(), 2u);
+  EXPECT_EQ(record["attempts"][0]["claimed_status"], "inaccurate");
+  EXPECT_EQ(record["attempts"][0]["error_estimate"], 1e-5);
+  EXPECT_LT(record["attempts"][0]["error"], 1e-9);
+  EXPECT_EQ(record["attempts"][1]["tolerance"], said[1]);
 }
 
 // TMPDIR may be relative, or look like a placeholder.
@@ -294,95 +329,6 @@ TEST_F(ExternalCommand, EveryValueOfAParameterIsAMethod) {
   EXPECT_EQ(chosen.code, 0) << chosen.err;
   EXPECT_NE(chosen.out.find("EXTERNAL:many:stiffness=2.5"), chosen.out.npos) << chosen.out;
   EXPECT_EQ(chosen.out.find("1234567"), chosen.out.npos) << chosen.out;
-}
-
-TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
-  const Json right = declaration("one", "condensed", {"true", "{output}"});
-  const auto refused = [&](const std::string& text, const std::string& line) {
-    SCOPED_TRACE(line);
-    write("one.json", text);
-    const auto result = bench_.run("--external=one.json --method='EXTERNAL:*' --mesh=Mesh0");
-    EXPECT_EQ(result.code, 2);
-    EXPECT_EQ(result.err.rfind("bench: one.json: " + line, 0), 0u) << result.err;
-    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
-  };
-  const auto with = [&](const Json& change) {  // null: without
-    Json json = right;
-    json.merge_patch(change);
-    return json.dump();
-  };
-  refused("", "not JSON: parse error");
-  refused("[1]", "the file: [1] (allowed: a JSON object)");
-  refused(std::string(100'000, '['), "nested more than 8 deep");
-  refused(with({{"colour", 1}}), "colour: unknown key (allowed: name, summary, reads, ");
-  refused(with({{"name", nullptr}}), "name: is missing (allowed: a text)");
-  refused(with({{"name", ""}}), "name: \"\" (allowed: a text)");
-  refused(with({{"name", "a,b"}}), "name: \"a,b\" (allowed: letters, digits, '-', '_' and '.')");
-  refused(with({{"name", "../a"}}), "name: \"../a\" (allowed: letters");
-  refused(with({{"summary", 3}}), "summary: 3 (allowed: a text)");
-  refused(with({{"reads", nullptr}}), "reads: is missing (allowed: airy, body, condensed)");
-  refused(with({{"reads", "mind"}}), "reads: \"mind\" (allowed: airy, body, condensed)");
-  refused(with({{"returns", "airy_function"}}),
-          "returns: \"airy_function\" (allowed: contact_forces, as it reads condensed)");
-  refused(with({{"format", "xml"}}), "format: \"xml\" (allowed: matrix-market");
-  refused(with({{"reads", "airy"}, {"returns", "airy_function"}, {"format", "fclib"}}),
-          "format: \"fclib\" (allowed: matrix-market");
-  for (const Json& components : {Json(2), Json::array(), Json::array({2, 4}), Json::array({"2"})})
-    refused(with({{"components", components}}), "components: " + components.dump() + " (allowed: ");
-  refused(with({{"command", nullptr}}),
-          "command: is missing (allowed: a list of texts, the program first)");
-  for (const Json& command :
-       {Json("true"), Json::array(), Json::array({"", "a"}), Json::array({"true", 1})})
-    refused(with({{"command", command}}), "command: " + command.dump() + " (allowed: a list of ");
-  refused(with({{"command", {"true", "{outpt}"}}}), "command: \"{outpt}\" (allowed: {input}, ");
-  for (const Json& precision : {Json(0), Json(1e-3), Json("7")})
-    refused(with({{"reads", "body"}, {"returns", "displacement"}, {"print_precision", precision}}),
-            "print_precision: " + precision.dump() +
-                " (allowed: with \"returns\": \"displacement\", above 0, up to 5e-6: six digits)");
-  refused(with({{"print_precision", 1e-7}}), "print_precision: 1e-07 (allowed: with ");
-  const auto refused_of_displacement = [&](const char* key, const Json& wrong, const Json& valid,
-                                           const char* allowed) {
-    const auto line = [&](const Json& given) {
-      return fmt::format("{}: {} (allowed: with \"returns\": \"displacement\", {})", key,
-                         given.dump(), allowed);
-    };
-    refused(with({{"reads", "body"}, {"returns", "displacement"}, {key, wrong}}), line(wrong));
-    refused(with({{key, valid}}), line(valid));
-  };
-  refused_of_displacement("allowed_penetration", 0, 0.1, "above 0, up to 1");
-  refused_of_displacement("allowed_penetration", "1 %", 1, "above 0, up to 1");
-  refused_of_displacement("weak_contact", 1, true, "true or false");
-  refused_of_displacement("joins_bodies", "yes", true, "true or false");
-  refused_of_displacement("load_steps", 3, true, "true or false");
-  for (const Json& parameter :
-       {Json(1), Json({{"a", {1}}, {"b", {1}}}), Json({{"threads", {1}}}), Json({{"A", {1}}}),
-        Json({{"a", Json::array()}}), Json({{"a", {1, 0}}}), Json({{"a", {"1"}}})})
-    refused(with({{"parameter", parameter}}),
-            "parameter: " + parameter.dump() + " (allowed: one name of a to z and _ that ");
-  refused(with({{"parameter", {{"a", {1, 1.0}}}}, {"command", {"true", "{a}"}}}),
-          "parameter: \"1\" (allowed: every value once)");
-  refused(with({{"parameter", {{"a", {1}}}}}),
-          "command: [\"true\",\"{output}\"] (allowed: with {a}");
-  refused(with({{"parameter", {{"a", {1}}}}, {"command", {"true", "{b}"}}}),
-          "command: \"{b}\" (allowed: {input}, ");
-  refused(with({{"first_tolerance", 0}}), "first_tolerance: 0 (allowed: a number > 0)");
-  refused(with({{"first_tolerance", 0.1}}),
-          "first_tolerance: 0.1 (allowed: with {tolerance} in the command)");
-  refused(with({{"version", {"false", "it"}}}), "version: false it: ended with exit code 1\n");
-  refused(with({{"version", {"true"}}}), "version: true: ended with exit code 0\n");
-  refused(with({{"version", {"no-such-program"}}}),
-          "version: no-such-program: cannot be started: No such file or directory\n");
-}
-
-TEST_F(ExternalCommand, TwoOfOneNameAreRefused) {
-  declare("one", "airy", "exit 1");
-  std::filesystem::copy(bench_.path("one.json"), bench_.path("two.json"));
-  const auto result = bench_.run("--external=one.json,two.json --method='EXTERNAL:*' --mesh=Mesh0");
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err,
-            "bench: --external: two.json: another file declares EXTERNAL:one (allowed: one)\n");
-  EXPECT_EQ(bench_.run("--external=none.json --mesh=Mesh0").err,
-            "bench: none.json: cannot be opened: No such file or directory\n");
 }
 
 }  // namespace

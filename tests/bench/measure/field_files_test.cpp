@@ -50,6 +50,20 @@ std::vector<double> numbers(const Columns& columns, const std::string& name) {
   return values;
 }
 
+// Nine rows per triangle, each at its place.
+void expect_stresses(const Columns& rows, const Mesh& mesh, const testing::ExactField& exact) {
+  const auto x = numbers(rows, "x_mm"), y = numbers(rows, "y_mm"), sxx = numbers(rows, "sxx_MPa"),
+             syy = numbers(rows, "syy_MPa"), sxy = numbers(rows, "sxy_MPa");
+  ASSERT_EQ(x.size(), 9 * mesh.triangles.size());
+  double size = 0, error = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const Eigen::Vector3d stress = exact.stress({x[k], y[k]});
+    size = std::max(size, stress.norm());
+    error = std::max(error, (stress - Eigen::Vector3d(sxx[k], syy[k], sxy[k])).norm());
+  }
+  EXPECT_LT(error, 1e-9 * size) << exact.name;
+}
+
 // The tooth without a contact boundary.
 Mesh free_tooth(int nx, int ny) {
   return testing::with_role(testing::small_tooth(nx, ny), BoundaryRole::contact,
@@ -84,7 +98,7 @@ struct Solved {
   }
 };
 
-TEST(FieldFiles, DisplacementsAreTheExactOnesWithTheRigidMotion) {
+TEST(FieldFiles, StressesAndDisplacementsAreTheExactOnes) {
   const Mesh mesh = free_tooth(5, 4);
   for (const testing::ExactField& exact : testing::exact_fields(2000, 0.3))
     for (const char* method : {"HYBRID", "HYBRID:k=3", "P2", "P3"}) {
@@ -104,6 +118,7 @@ TEST(FieldFiles, DisplacementsAreTheExactOnesWithTheRigidMotion) {
         error = std::max(error, (u - Eigen::Vector2d(ux[k], uy[k])).norm());
       }
       EXPECT_LT(error, 1e-10 * size) << exact.name << " " << method;
+      expect_stresses(read_csv(folder / "a.stress.csv"), mesh, exact);
     }
 }
 

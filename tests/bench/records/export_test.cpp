@@ -156,9 +156,11 @@ TEST(GoogleBenchmark, CasesWithoutSamplesAreErrors) {
 TEST(GoogleBenchmark, NoRecordsAreAnEmptyList) { EXPECT_TRUE(google({}).at("benchmarks").empty()); }
 
 TEST(GithubAction, EntriesHaveTheDocumentedFields) {
-  const Json entries =
-      Json::parse(github_action_json(records_of({record("HYBRID", {1, 2, 4}), awkward_record()})));
-  ASSERT_EQ(entries.size(), 4u + 3u);  // the second has no time
+  Json answered = awkward_record();
+  answered["status"] = "inaccurate";
+  const Json entries = Json::parse(
+      github_action_json(records_of({record("HYBRID", {1, 2, 4}), awkward_record(), answered})));
+  ASSERT_EQ(entries.size(), 4u + 3u);  // a timeout has none, the last no time
   std::set<std::string> names;
   for (const Json& entry : entries) {
     names.insert(entry.at("name").get<std::string>());
@@ -188,6 +190,8 @@ TEST(Bencher, MeasuresHaveAValueAndBounds) {
   EXPECT_EQ(measures.at("error-stress"), Json({{"value", 1e-12}}));
   EXPECT_EQ(measures.at("error-force"), Json({{"value", 0.0}}));
   EXPECT_EQ(bencher_json({}), "{}\n");
+  const Json once = Json::parse(bencher_json(records_of({record("HYBRID", {1})})));
+  EXPECT_EQ(once.at("Mesh0/default/HYBRID").at("latency"), Json({{"value", 1e9}}));
 }
 
 TEST(SeriesCsv, ARowPerNumber) {

@@ -85,6 +85,20 @@ TEST(Track, EveryWorseningCountsAtOnce) {
   }
 }
 
+// Counts of a run that was stopped are lower bounds.
+TEST(Track, ANightThatEndedEarlyIsNoMeasureForTheNext) {
+  Record stopped = record("ALM", 1);
+  stopped.status = Status::timeout;
+  stopped.peak_heap_bytes = 500000;
+  const std::vector<TrackedRun> history =
+      tracked({run_of(0, {record("ALM", 1)}), run_of(1, {stopped}), run_of(2, {record("ALM", 1)})});
+  for (const std::size_t night : {1U, 2U}) {
+    ASSERT_EQ(history[night].findings.size(), 1u);
+    EXPECT_EQ(history[night].findings[0].quantity, "status");
+  }
+  EXPECT_FALSE(history[2].failed);
+}
+
 TEST(Track, ErrorsAtRoundingMayGrow) {
   const Field& field = field_named("error_force");
   EXPECT_FALSE(grew(field, 1e-12, 9e-12));

@@ -96,6 +96,17 @@ TEST(WriteFile, DoesNotFollowAPlantedTemporaryName) {
   EXPECT_EQ(text_of(folder / "file"), "new");
 }
 
+TEST(RecordFiles, TablesOfOthersStay) {
+  const BenchCommand bench;
+  for (const std::string name : {"results.csv", "results.json"}) {
+    fs::create_directories(bench.path(name + ".d"));
+    testing::write_text(bench.path(name + ".d") / name, "mine");
+    bench.expect_refusal(quick + "--out=" + name + ".d",
+                         name + ": is of no records.jsonl there (allowed: another folder)");
+    EXPECT_EQ(bench.content(name + ".d/" + name), "mine");
+  }
+}
+
 TEST(FolderLock, IsOneProcesssUntilItEnds) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(quick + "--out=a").code, 0);
@@ -115,6 +126,8 @@ TEST(FolderLock, IsOneProcesssUntilItEnds) {
     refused("replay part:1 --out=a");
     refused("track --history=h --from=part");
     EXPECT_FALSE(fs::exists(bench.path("h/nights")));
+    { const FolderLock part_of_it(bench.path("a")); }
+    refused(quick + "--out=a");
   }
   EXPECT_EQ(bench.run(quick + "--out=a").code, 0);
   EXPECT_EQ(bench.run("track --history=h --from=part").code, 0);

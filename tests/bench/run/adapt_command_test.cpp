@@ -10,6 +10,7 @@
 #include "solvers/methods.hpp"
 #include "support/sha256.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/pieces.hpp"
 
 namespace airybench::adapt_command_test {
 namespace {
@@ -53,7 +54,7 @@ TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
   // A level is a mesh as any other, and its record can be run again.
   const std::string mesh = last["mesh_file"], level = last["mesh"];
   ASSERT_EQ(bench("--mesh='o/" + mesh +
-                  "' --scene=o/meshes/default/default.json --method=HYBRID "
+                  "' --scene=o/meshes/default/Mesh0/default.json --method=HYBRID "
                   "--repetitions=1 --out=again"),
             0)
       << complaint();
@@ -87,19 +88,32 @@ TEST_F(AdaptCommand, DegreesHaveLevelsOfTheirOwnThatCanBeJoined) {
 }
 
 TEST_F(AdaptCommand, AppendingKeepsTheMeshesOfEarlierRecords) {
-  const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o --adapt=";
+  const std::string run =
+      "--mesh=Mesh0 --scene=s.json --method=HYBRID --repetitions=1 --out=o --adapt=";
+  const auto write_scene = [&](const std::string& friction) {
+    write("s.json", "{\"friction\": " + friction + "}");
+  };
+  write_scene("0.3");
   ASSERT_EQ(bench(run + "1000"), 0) << complaint();
   const auto before = bench_.records();
-  EXPECT_EQ(bench(run + "900 --append"), 2);
-  EXPECT_NE(complaint().find("Mesh0+adapt1.msh: the records of that folder have another mesh of "
-                             "this name"),
-            std::string::npos)
-      << complaint();
-  EXPECT_EQ(bench_.records(), before);
+  const std::string scene = bench_.content("o/meshes/s/Mesh0/s.json");
+  for (const auto& [friction, other] : std::vector<std::array<std::string, 2>>{
+           {"0.3", "900 --append"}, {"0.3", "900 --resume"}, {"0.1", "1000 --append"}}) {
+    write_scene(friction);
+    EXPECT_EQ(bench(run + other), 2);
+    EXPECT_NE(complaint().find(": the records of that folder have another file of this name"),
+              std::string::npos)
+        << complaint();
+    EXPECT_EQ(bench_.records(), before);
+    EXPECT_EQ(bench_.content("o/meshes/s/Mesh0/s.json"), scene);
+  }
   for (const Json& record : before)
     EXPECT_EQ(sha256_of_file(bench_.path("o") / record["mesh_file"].get<std::string>()),
               record["mesh_sha256"]);
-  EXPECT_EQ(bench("--mesh=Mesh0 --method=P2 --repetitions=1 --out=o --adapt=1000 --append"), 0)
+  write_scene("0.3");
+  EXPECT_EQ(bench("--mesh=Mesh0 --scene=s.json --method=P2 --repetitions=1 --out=o --adapt=1000 "
+                  "--append"),
+            0)
       << complaint();
 }
 
@@ -172,11 +186,32 @@ TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
   const Json record = bench_.records()[0];
   EXPECT_GE(record["n_phi"].get<int>(), 1000);
   EXPECT_NEAR(record["width_mm"].get<double>(), 20, 1e-9);
-  const Json definition = Json::parse(bench_.content("o/meshes/layered/layered.json"));
+  const Json definition = Json::parse(bench_.content("o/meshes/layered/Mesh0/layered.json"));
   EXPECT_EQ(definition, record["scene_definition"]);
   EXPECT_FALSE(definition.contains("mesh") || definition.contains("layers"));
   EXPECT_EQ(definition["materials"]["layer 2"]["young_MPa"], 3000);
   EXPECT_EQ(definition["materials"]["layer 1"]["poisson"], 0.3);
+}
+
+TEST_F(AdaptCommand, GroupsThatFaceNothingAreForgotten) {
+  Mesh mesh;
+  mesh.name = "blocks";
+  testing::add_block(mesh, "base", {0, -6}, {12, 0}, 4, 3,
+                     {"displacement:floor", "force", "contact:base", "contact:side"});
+  testing::add_block(mesh, "block", {0, 0}, {12, 5}, 5, 3,
+                     {"contact:block", "force", "displacement:head", "force"});
+  write("blocks.msh", msh_text(mesh));
+  write("pair.json",
+        R"({"contacts": [{"between": ["contact:block", ["contact:base", "contact:side"]]}],
+        "boundary": {"displacement:floor": {"displacement_mm": [0, 0]}}, "displacement_mm": [0, -0.01],
+        "load_steps": [{"displacement_mm": [0.004, -0.01]}]})");
+  ASSERT_EQ(bench("--mesh=blocks.msh --scene=pair.json --method=HYBRID --adapt=400 --repetitions=1 "
+                  "--out=o"),
+            0)
+      << complaint();
+  const Json definition = Json::parse(bench_.content("o/meshes/pair/blocks/pair.json"));
+  EXPECT_EQ(definition["contacts"][0]["between"],
+            Json::parse(R"(["contact:block", ["contact:base"]])"));
 }
 
 TEST_F(AdaptCommand, WhatOneAsksOfTheContactHasIntervalsAndTheMeanOfBothStressesHalfOfTheError) {

@@ -243,7 +243,7 @@ TEST(TemporaryFolder, OfAKilledProcessIsRemovedByTheNextRun) {
   const testing::EnvironmentVariable parent("TMPDIR", place.path().string());
   const testing::TemporaryFolder in_use;
   std::filesystem::create_directories(place / "other/content");
-  std::filesystem::create_directory_symlink("other", place / "airybench-scratch-link");
+  std::filesystem::create_directory_symlink("other", in_use.path().string() + "link");
   const pid_t killed = fork();
   if (killed == 0) {
     const testing::TemporaryFolder left;

@@ -149,7 +149,7 @@ TEST(ContactIntervals, TheLargestPressureIsUnboundedAtTheEdgeOfAPunch) {
 TEST(ContactIntervals, ResultantsNeedOneNormalAndAFaceApartFromWhatIsHeld) {
   Mesh mesh = testing::small_tooth(6, 5);
   for (Eigen::Vector2d& x : mesh.vertices) x.x() += 0.002 * x.x() * x.y() * x.y() / 10;
-  const Judged on_bent_face({.friction = 0}, mesh);
+  const Judged on_bent_face({.friction = 0, .crown_radius_mm = {}}, mesh);
   ASSERT_TRUE(on_bent_face.intervals);
   EXPECT_FALSE(on_bent_face.intervals->normal_resultant_N);
   EXPECT_GT(on_bent_face.intervals->largest_pressure_MPa, 0);

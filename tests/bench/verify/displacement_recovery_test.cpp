@@ -168,7 +168,7 @@ TEST(RecoveredDisplacement, KeepsToEveryContactEdgeOfABentFace) {
   Mesh mesh = testing::small_tooth(8, 7);
   for (Eigen::Vector2d& x : mesh.vertices) x.x() -= 0.02 * x.y() * x.y() * x.x() / 10;
   const ConstitutiveError error =
-      Solved({.friction = 0, .displacement_mm = {0.1, 0}}, mesh).error();
+      Solved({.friction = 0, .crown_radius_mm = {}, .displacement_mm = {0.1, 0}}, mesh).error();
   EXPECT_EQ(error.flaw, "");
   EXPECT_TRUE(error.guaranteed);
 }

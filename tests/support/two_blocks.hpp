@@ -1,0 +1,34 @@
+// Two blocks in contact: meshes that do not match, and a scene that presses them together.
+#pragma once
+
+#include "assembly/scene.hpp"
+#include "tests/support/pieces.hpp"
+
+namespace airybench::testing {
+
+// One 12 mm wide on another, with so many edges on each face.
+inline Mesh two_blocks(int lower, int upper, const std::string& left = "force") {
+  Mesh mesh;
+  mesh.name = "blocks";
+  const std::string side = left == "force" ? left : left + ":";
+  const auto of = [&](const char* body) { return left == "force" ? left : side + body; };
+  add_block(mesh, "base", {0, -6}, {12, 0}, lower, 5,
+            {"displacement:floor", "force", "contact:base", of("base")});
+  add_block(mesh, "block", {0, 0}, {12, 5}, upper, 4,
+            {"contact:block", "force", "displacement:head", of("block")});
+  validate(mesh);
+  return mesh;
+}
+
+inline Scene pressed(double friction, const Eigen::Vector2d& head_mm = {0.004, -0.01}) {
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  scene.materials = {{"base", {70000, 0.33}}, {"block", {210000, 0.3}}};
+  scene.contacts = {{.between = {{{"contact:block"}, {"contact:base"}}}, .friction = friction}};
+  scene.boundary["displacement:floor"].displacement_mm = LinearValue<Eigen::Vector2d>{};
+  scene.boundary["displacement:floor"].displacement_mm->values.fill({0, 0});
+  scene.boundary["displacement:head"].displacement_mm = LinearValue<Eigen::Vector2d>{{head_mm, head_mm}};
+  return scene;
+}
+
+}  // namespace airybench::testing
