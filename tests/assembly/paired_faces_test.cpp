@@ -111,7 +111,9 @@ TEST(PairedFaces, LeaveNothingForKeysOfWalls) {
   const std::string why = "where all contact groups are in contacts (allowed: in these)";
   EXPECT_EQ(complaint([](Scene& s) { s.clearance_mm = 0.1; }),
             "default scene: clearance_mm: 0.1 " + why);
-  EXPECT_EQ(complaint([](Scene& s) { s.wall = FlatWall{{0, 0}, {0, 1}}; }),
+  EXPECT_EQ(complaint([](Scene& s) {
+              s.wall = FlatWall{{0, 0}, {0, 1}};
+            }),
             "default scene: wall: given " + why);
   EXPECT_EQ(complaint([](Scene& s) {
               s.later_steps.resize(1);

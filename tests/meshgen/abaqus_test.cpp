@@ -29,9 +29,9 @@ class Abaqus : public ::testing::Test {
     return testing::write_text(folder_ / "plate.inp", text);
   }
   static std::string converted(const std::filesystem::path& file) {
-    Mesh mesh = convert_model(file, model_options_of({"Ssole=contact:sole", "Nhead=displacement"},
-                                                     {}, ""))
-                    .mesh;
+    Mesh mesh =
+        convert_model(file, model_options_of({"Ssole=contact:sole", "Nhead=displacement"}, {}, ""))
+            .mesh;
     mesh.name = mesh.body_names[0] = "plate";
     return msh_text(mesh);
   }
@@ -72,8 +72,9 @@ TEST_F(Abaqus, WhatWouldBeAnotherBodyIsRefused) {
     EXPECT_NE(what.find(why), std::string::npos) << what;
   }
   const std::filesystem::path shells = plate({{"TYPE=CPE4", "TYPE=S4"}});
-  EXPECT_NE(testing::complaint_of<MeshError>([&] { convert_model(shells); })
-                .find("side S1 of element 1 is no edge (allowed: S3 to S6)"),
+  EXPECT_NE(testing::complaint_of<MeshError>([&] {
+              convert_model(shells);
+            }).find("side S1 of element 1 is no edge (allowed: S3 to S6)"),
             std::string::npos);
 }
 

@@ -27,7 +27,8 @@ inline Scene pressed(double friction, const Eigen::Vector2d& head_mm = {0.004, -
   scene.contacts = {{.between = {{{"contact:block"}, {"contact:base"}}}, .friction = friction}};
   scene.boundary["displacement:floor"].displacement_mm = LinearValue<Eigen::Vector2d>{};
   scene.boundary["displacement:floor"].displacement_mm->values.fill({0, 0});
-  scene.boundary["displacement:head"].displacement_mm = LinearValue<Eigen::Vector2d>{{head_mm, head_mm}};
+  scene.boundary["displacement:head"].displacement_mm =
+      LinearValue<Eigen::Vector2d>{{head_mm, head_mm}};
   return scene;
 }
 
