@@ -78,7 +78,8 @@ def draw(rows: list[Row]) -> Figure | str:
         "(newton); iterations (admm). " +
         (f"Other programs: {', '.join(programs)}; their time is that of the contact law by their own "
          "clock, their iterations as they report them. " if programs else "") +
-        (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases did not end `ok`." if failed else "All cases were solved."),
+        (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases are not ok." if failed else
+         "All cases were solved."),
         lacking([row for row in rows if row.solved], {"time": seconds, "iterations": iterations}, solver_of))
     xlim = log_limits([row.n_c for row in rows if row.n_c], 1.3)
     for k, (of, words) in enumerate(QUANTITIES):
