@@ -98,9 +98,7 @@ void check_agreement(const Mesh& mesh, const std::vector<BoundaryValues>& of_row
       }
       Eigen::Vector2d jump = u[1] - u[0];
       const bool both_roll = !rolls_along[0].isZero(0) && !rolls_along[1].isZero(0);
-      const double sine =
-          rolls_along[0].x() * rolls_along[1].y() - rolls_along[0].y() * rolls_along[1].x();
-      if (both_roll && std::abs(sine) >= straight_roller) continue;
+      if (both_roll && std::abs(cross(rolls_along[0], rolls_along[1])) >= straight_roller) continue;
       const Eigen::Vector2d& free = rolls_along[0].isZero(0) ? rolls_along[1] : rolls_along[0];
       jump -= jump.dot(free) * free;
       if (jump.norm() <= rounding * std::max(u[0].norm(), u[1].norm())) continue;

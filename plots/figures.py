@@ -29,7 +29,7 @@ import command
 from documents import documents_of
 from drawing import STYLE, Drawing, for_papers
 from records import Row, read_run, rows_of
-from selection import comparable, grouped
+from selection import comparable, grouped, has_other_solver
 from words import cases_by_reason
 
 
@@ -41,7 +41,7 @@ def drawings_of(rows: list[Row]) -> list[Drawing]:
 
 
 def why_undrawn(row: Row, drawn: list[Row]) -> str:
-    if row not in comparable([row, *drawn]):
+    if has_other_solver(row) and not all(map(has_other_solver, drawn)):
         return f"contact law by {row.contact_solver}"
     scenes = {other.scene for other in drawn if other.study == row.study}
     if row.scene not in scenes:

@@ -38,13 +38,15 @@ def by_stop(rows: list[Row]) -> dict[str, list[Row]]:
     return {stop: own for stop, own in groups.items() if own}
 
 
+def has_other_solver(row: Row) -> bool:
+    """Of the contact law than it implies; only the figure `contact` tells solvers apart."""
+    return row.study != "contact" and bool(other_contact_solver(vars(row)))
+
+
 def comparable(rows: list[Row]) -> list[Row]:
-    """Without cases whose contact law another solver than theirs solved, if others remain: only the
-    figure `contact` tells solvers apart."""
-    def is_usual(row: Row) -> bool:
-        return row.study == "contact" or not other_contact_solver(vars(row))
-    others_remain = any(is_usual(row) and row.study != "contact" for row in rows)
-    return [row for row in rows if is_usual(row) or not others_remain]
+    """Without cases that have another solver of the contact law, if others remain."""
+    others_remain = any(row.study != "contact" and not has_other_solver(row) for row in rows)
+    return [row for row in rows if not (others_remain and has_other_solver(row))]
 
 
 def kind_of(row: Row) -> str:

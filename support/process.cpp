@@ -124,6 +124,11 @@ std::optional<std::int64_t> oom_kills(const std::filesystem::path& root) {
   return count_in(root / "proc/vmstat");
 }
 
+void note_oom_kill(std::optional<std::int64_t> kills_before, ChildEnd& end) {
+  if (const auto now = oom_kills(); now && kills_before && end.signal == SIGKILL)
+    end.oom_killed = *now > *kills_before;
+}
+
 Channel::~Channel() { close(socket_); }
 
 bool Channel::send(const std::string& line) {
@@ -191,8 +196,7 @@ void ChildProcess::finish(int patience_ms) {
   }
   pid_ = -1;
   note_status(status, end_);
-  if (const auto now = oom_kills(); now && oom_kills_before_)
-    end_.oom_killed = end_.signal == SIGKILL && *now > *oom_kills_before_;
+  note_oom_kill(oom_kills_before_, end_);
   rlimit limit = {};  // inherited by the child
   end_.used_up_processor_time =
       getrlimit(RLIMIT_CPU, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&

@@ -38,6 +38,7 @@ std::string how_it_ended(const ChildEnd& end, double limit_s);
 // The kernel's kills for lack of memory in this process's control group (version 2, memory.events),
 // else on this machine (/proc/vmstat); empty if unknown. root: folder of /proc and /sys.
 std::optional<std::int64_t> oom_kills(const std::filesystem::path& root = "/");
+void note_oom_kill(std::optional<std::int64_t> kills_before, ChildEnd& end);
 
 class Channel {
  public:

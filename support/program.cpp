@@ -226,8 +226,7 @@ ChildEnd run_program(const Program& program, const ProgramLimits& limits) {
   if (guardian < 0) fail_to("a program's process", error);
   if (is_killed) throw std::runtime_error("the program's guardian was ended");
   ChildEnd ended = *end;
-  if (const auto now = oom_kills(); now && oom_kills_before && ended.signal == SIGKILL)
-    ended.oom_killed = *now > *oom_kills_before;
+  note_oom_kill(oom_kills_before, ended);
   return ended;
 }
 

@@ -166,12 +166,7 @@ TEST(PairedFaces, AGroupThatFacesNothingMayHaveValues) {
   Scene scene = pressed(0.3);
   scene.contacts[0].between[1] = {"contact:base", "contact:side"};
   scene.boundary["contact:side"] = {};
-  Mesh mesh;
-  mesh.name = "blocks";
-  add_block(mesh, "base", {0, -6}, {12, 0}, 8, 5,
-            {"displacement:floor", "force", "contact:base", "contact:side"});
-  add_block(mesh, "block", {0, 0}, {12, 5}, 8, 4,
-            {"contact:block", "force", "displacement:head", "force"});
+  const Mesh mesh = testing::with_contact_beside(two_blocks(8, 8));
   EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(scene, mesh); }), "no complaint");
   scene.boundary["contact:sied"] = {};
   EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(scene, mesh); }),

@@ -20,6 +20,15 @@ inline Mesh two_blocks(int lower, int upper, const std::string& left = "force") 
   return mesh;
 }
 
+// The left side of the base is the group contact:side, which faces nothing.
+inline Mesh with_contact_beside(Mesh mesh) {
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::force && mesh.vertices[edge.vertices[0]].x() == 0 &&
+        mesh.vertices[edge.vertices[0]].y() <= 0 && mesh.vertices[edge.vertices[1]].x() == 0)
+      edge = {edge.vertices, BoundaryRole::contact, boundary_group(mesh, "side")};
+  return mesh;
+}
+
 inline Scene pressed(double friction, const Eigen::Vector2d& head_mm = {0.004, -0.01}) {
   Scene scene;
   scene.crown_radius_mm.reset();

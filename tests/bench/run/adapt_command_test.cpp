@@ -10,7 +10,7 @@
 #include "solvers/methods.hpp"
 #include "support/sha256.hpp"
 #include "tests/support/bench_command.hpp"
-#include "tests/support/pieces.hpp"
+#include "tests/support/two_blocks.hpp"
 
 namespace airybench::adapt_command_test {
 namespace {
@@ -194,13 +194,7 @@ TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
 }
 
 TEST_F(AdaptCommand, GroupsThatFaceNothingAreForgotten) {
-  Mesh mesh;
-  mesh.name = "blocks";
-  testing::add_block(mesh, "base", {0, -6}, {12, 0}, 4, 3,
-                     {"displacement:floor", "force", "contact:base", "contact:side"});
-  testing::add_block(mesh, "block", {0, 0}, {12, 5}, 5, 3,
-                     {"contact:block", "force", "displacement:head", "force"});
-  write("blocks.msh", msh_text(mesh));
+  write("blocks.msh", msh_text(testing::with_contact_beside(testing::two_blocks(4, 5))));
   write("pair.json",
         R"({"contacts": [{"between": ["contact:block", ["contact:base", "contact:side"]]}],
         "boundary": {"displacement:floor": {"displacement_mm": [0, 0]}}, "displacement_mm": [0, -0.01],
