@@ -14,7 +14,7 @@ from pathlib import Path
 from measuring import Workshop, missing
 from parts import PROJECT, RESULTS, Part, commit_of, output_of
 
-LARGE = 4 << 20  # bytes
+LARGE = 2 << 20  # bytes
 
 
 def records_of(folder: Path) -> list[dict]:
