@@ -2,8 +2,9 @@
 """Draws performance profiles of contact problems, at two precisions.
 
     bench --problem=FOLDER --study=contact --out=RESULTS_DIR
-    contact_profiles.py RESULTS_DIR [--out DIR] [--vector]     contact_profiles.png and .csv,
-                                                               contact_table.md
+    contact_profiles.py RESULTS_DIR [--out DIR] [--vector]     contact_table.md; from 2 solvers and
+                                                               3 problems on contact_profiles.png
+                                                               and .csv
 
 A precision has separate runs that stop there. Of a problem p and a solver s, whose run takes t_ps and leaves
 the error e_ps,
@@ -12,8 +13,7 @@ the error e_ps,
 
 as in the comparison over FCLIB (Acary, Bremond & Huber 2018, doi:10.1007/978-3-319-75972-2_10). The
 error is Siconos' measure of the answer, by bench and not by the solver. The table has the runs to
-the higher precision. Exit 2: no such records, or a
-file that cannot be written.
+the higher precision. Exit 2: no such records, or a file that cannot be written.
 """
 import argparse
 from functools import partial
@@ -24,13 +24,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from command import replace_all, results_and_out, run, text_writer
+from command import Made, results_and_out, run, text_writer
 from drawing import DPI, PAGE_WIDTH, STYLE, for_papers, log_axis, panel_at, sheet, write_small_png
 from figure.profile import fractions, jumps, ratios
 from records import RecordsError, is_without_body, read_lines
 
 PRECISIONS = (1e-4, 1e-8)
-FEWEST_PROBLEMS, FEWEST_SOLVERS = 3, 2
+FEWEST_SOLVERS, FEWEST_PROBLEMS = 2, 3
 LEFT, TOP, PANEL, BETWEEN = 0.6, 0.35, 2.2, 0.7  # inches
 COLOURS = ("#000000", "#D55E00", "#0072B2", "#00805C", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F")
 DASHES = ("-", (0, (4, 2)), (0, (1, 1.5)), (0, (5, 1, 1, 1)))
@@ -104,7 +104,8 @@ def markdown_of(records: list[dict]) -> str:
         by_solver = {solver_of(record): cell_of(record, precision) for record in own}
         best = [min((costs.at[problem, s] for s in solvers if (s in ours) == of_ours), default=np.inf)
                 for of_ours in (False, True)]
-        ratio = f"{best[0] / best[1]:.2g}" if np.isfinite(best).all() else ""
+        ratio = np.format_float_positional(
+            best[0] / best[1], 2, fractional=False, trim="-") if np.isfinite(best).all() else ""
         lines.append([problem, own[0]["contact_matrix"], str(own[0]["n_c"]),
                       *(by_solver.get(s, "") for s in solvers), ratio,
                       *(worst_of([r for r in own if (solver_of(r) in ours) == of_ours], precision)
@@ -113,14 +114,14 @@ def markdown_of(records: list[dict]) -> str:
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
+def solvers_and_problems(records: list[dict]) -> tuple[int, int]:
+    return len(set(map(solver_of, records))), len({record["mesh"] for record in records})
+
+
 def draw(records: list[dict]) -> Figure:
-    solvers = costs_of(records, PRECISIONS[0]).columns
-    problems = {record["mesh"] for record in records}
-    if len(problems) < FEWEST_PROBLEMS or len(solvers) < FEWEST_SOLVERS:
-        raise RecordsError(f"{len(solvers)} solvers on {len(problems)} contact problems; "
-                           f"expected {FEWEST_SOLVERS} and {FEWEST_PROBLEMS}")
+    solvers, problems = solvers_and_problems(records)
     figure = sheet(TOP + len(PRECISIONS) * (PANEL + BETWEEN),
-                   f"Profiles: {len(solvers)} contact solvers on {len(problems)} problems",
+                   f"Profiles: {solvers} contact solvers on {problems} problems",
                    "The share of problems that a solver solves within a factor of the fastest "
                    "solver's time. Solved: Siconos' error of the answer is at most the precision, "
                    "whatever the solver says of it. Each precision has its own runs, which stop there. "
@@ -153,15 +154,23 @@ def make(args: argparse.Namespace) -> None:
     if not records:
         raise RecordsError(f"{source}: no runs to {' or '.join(map(str, PRECISIONS))} of contact "
                            "problems; expected records of bench --problem=... --study=contact")
-    table = table_of(records).to_csv(index=False)
+    out = args.out or args.results / "figures"
+    out.mkdir(parents=True, exist_ok=True)
+    made = Made(out, "contact_profiles")
+    files = {"contact_table.md": text_writer(markdown_of(records))}
+    solvers, problems = solvers_and_problems(records)
     with matplotlib.rc_context(STYLE):
-        out = args.out or args.results / "figures"
-        out.mkdir(parents=True, exist_ok=True)
-        figure = draw(records)
-        replace_all(out, (for_papers(figure, "contact_profiles") if args.vector else {}) |
-                    {"contact_profiles.png": partial(write_small_png, figure, DPI),
-                     "contact_profiles.csv": text_writer(table),
-                     "contact_table.md": text_writer(markdown_of(records))})
+        if solvers >= FEWEST_SOLVERS and problems >= FEWEST_PROBLEMS:
+            figure = draw(records)
+            files |= for_papers(figure, "contact_profiles") if args.vector else {}
+            files |= {"contact_profiles.png": partial(write_small_png, figure, DPI),
+                      "contact_profiles.csv": text_writer(table_of(records).to_csv(index=False))}
+        else:
+            print(f"contact_profiles: left out: {solvers} solvers on {problems} contact problems; "
+                  f"expected at least {FEWEST_SOLVERS} on {FEWEST_PROBLEMS}")
+        made.replace(files)
+    if gone := made.remove_others():
+        print(f"removed, of other records: {', '.join(gone)}")
 
 
 def main() -> None:

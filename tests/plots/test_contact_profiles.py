@@ -61,21 +61,31 @@ class ContactProfilesTest(unittest.TestCase):
             self.assertEqual(table[0], "precision,solver,factor_of_best,share_solved")
             self.assertIn("0.0001,nsgs,9.0,0.6666666666666666", table)
 
+    def test_few_problems_have_a_table_and_no_earlier_profiles(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            lines, figures = Path(folder, "records.jsonl"), Path(folder, "figures")
+            for chosen in (records(), [r for r in records() if r["mesh"] != "problem2"]):
+                lines.write_text("".join(json.dumps(record) + "\n" for record in chosen))
+                status, said, complaint = run(contact_profiles, folder)
+                self.assertEqual((status, complaint), (0, ""))
+            self.assertIn("left out: 3 solvers on 2 contact problems; expected at least 2 on 3", said)
+            self.assertEqual([path.name for path in figures.glob("contact_*")], ["contact_table.md"])
+            self.assertEqual(figures.joinpath("contact_table.md").read_text().count("problem"), 3)
+
     def test_the_table_has_times_where_the_precision_is_reached_and_else_how_far(self) -> None:
         head, _, first, _, last = contact_profiles.markdown_of(records()).splitlines()
         self.assertEqual(head.split(" | ")[1:7], ["W", "rows", "newton", "admm", "nsgs", "theirs / ours"])
         self.assertEqual(first, "| problem0 | sparse | 30 | 3 s | 6 s | ok, 1e-07 |  | 1e-09, 1e-09 |  |")
         self.assertEqual(last, "| problem2 | sparse | 30 | timeout | 40 s | timeout |  | 1e-10, 1e-10 |  |")
-        nsgs = [record | {"siconos_error": 1e-9} if ":" in record["method"] else record
-                for record in records()]
-        first = contact_profiles.markdown_of(nsgs).splitlines()[2]
-        self.assertIn("| 3 s | 6 s | 500 ms | 0.17 |", first)
+        for seconds, cells in ((0.5, "500 ms | 0.17"), (570.0, "570 s | 190")):
+            nsgs = [record | {"siconos_error": 1e-9, "time_s": seconds} if ":" in record["method"] else record
+                    for record in records()]
+            self.assertIn(f"| 3 s | 6 s | {cells} |", contact_profiles.markdown_of(nsgs).splitlines()[2])
 
     def test_what_it_cannot_draw_is_one_line(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             for lines, words in (([{"mesh": "Mesh0", "scene": "default"}], "no runs to 0.0001 or 1e-08"),
-                                 ([records()[0] | {"knob_value": None}], "--study=contact"),
-                                 (records()[:1], "1 solvers on 1 contact problems")):
+                                 ([records()[0] | {"knob_value": None}], "--study=contact")):
                 Path(folder, "records.jsonl").write_text(
                     "".join(json.dumps(record) + "\n" for record in lines))
                 status, _, complaint = run(contact_profiles, folder)
