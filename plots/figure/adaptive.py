@@ -72,7 +72,8 @@ def is_crossed(row: Row) -> bool:
 
 def kinds_in(rows: list[Row]) -> str:
     kinds = {kind_of(row) for row in rows}
-    return ", ".join(f"{kind} ({look})" for kind, look in LOOKS.items() if kind in kinds)
+    return ", ".join(f"{kind} ({look})" for kind, look in LOOKS.items() if kind in kinds) \
+        if len(kinds) > 1 else "".join(kinds)
 
 
 def words_of_crosses(rows: list[Row]) -> str:

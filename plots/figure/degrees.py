@@ -60,8 +60,8 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
         TOP + rows_of_panels * (HEIGHT + BETWEEN) - BETWEEN + 0.45, "Total error against time, by degree",
         f"Total error of the stresses, mesh and method together; {threads(rows)}. Meshes: {kinds_in(rows)}. "
         f"{words_of_crosses(rows)}"
-        "Time: one solve; on adapted meshes the whole loop, all levels and error estimates, and the solve of a "
-        "method that did not adapt them.",
+        "Time: one solve; on adapted meshes the whole loop, all levels and error estimates. A method that did not "
+        "adapt its mesh: that loop plus its own solve.",
         f"Bodies not drawn: {', '.join(map(title_of, others))}." if others else "",
         left_out(run, rows, why))
     errors = log_limits([row.error_total for row in rows], 1.5)
