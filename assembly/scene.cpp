@@ -145,6 +145,7 @@ void check_pins(const Scene& scene, const Problem& problem) {
 void check_rollers_at_pairs(const Scene& scene, const Problem& problem) {
   const Mesh& mesh = problem.mesh;
   if (problem.opposite.empty() || problem.loads.rollers.empty()) return;
+  constexpr double right_angle = 1e-4;  // cosine, of faces with rounded coordinates
   std::map<int, Eigen::Vector2d> roller;
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row)
     if (problem.loads.rollers[row]) {
@@ -157,7 +158,7 @@ void check_rollers_at_pairs(const Scene& scene, const Problem& problem) {
         const int v = mesh.boundary[row].vertices[end];
         const auto found = roller.find(v);
         if (found != roller.end() &&
-            std::abs(found->second.dot(problem.frame_at(row, end, 1).normal)) > straight_roller)
+            std::abs(found->second.dot(problem.frame_at(row, end, 1).normal)) > right_angle)
           fail(scene, "contacts", "at the vertex " + shown(mesh.vertices[v]),
                "a roller meets the face obliquely (allowed: at a right angle)");
       }

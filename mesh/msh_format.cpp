@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "mesh/straight_sides.hpp"
 #include "support/called_as.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
@@ -253,6 +254,7 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   mesh.name = file_name;  // until it is known to be good, the file is the name to complain about
   try {
     validate(mesh);
+    straighten_sides(mesh);
   } catch (const MeshError& error) {  // clockwise, or without a role: converted by --convert
     throw ForeignMeshError(error.what());
   }

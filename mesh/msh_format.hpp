@@ -22,7 +22,8 @@ struct ForeignMeshError : MeshError {
   using MeshError::MeshError;
 };
 
-// Reads and validates. Throws MeshError with one line "file:line: entity: what is wrong".
+// Reads, validates and straightens sides (straight_sides.hpp). Throws MeshError with one line
+// "file:line: entity: what is wrong".
 // Mesh::name is the file's name without folder and ".msh".
 Mesh read_msh(const std::filesystem::path& file);
 Mesh read_msh(std::istream& in, const std::string& file_name);

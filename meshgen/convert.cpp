@@ -10,6 +10,7 @@
 
 #include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
+#include "mesh/straight_sides.hpp"
 #include "meshgen/geo_script.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/open_model.hpp"
@@ -221,6 +222,11 @@ ConvertedModel convert_model(const std::filesystem::path& file, const ModelOptio
   }
   mesh.name = file.string();  // for validate() to complain about
   validate(mesh);
+  if (const auto moved = straighten_sides(mesh, model.mm_per_unit); moved.count > 0)
+    converted.notes.push_back(fmt::format(
+        "vertices moved onto straight sides: {}, by up to {:.2g} mm, the rounding of its "
+        "coordinates",
+        moved.count, moved.furthest_mm));
   mesh.name = model_name(file);
   return converted;
 }

@@ -211,6 +211,7 @@ class ModelReader {
       notes.push_back(
           fmt::format("it lies in the plane {} = {:.6g}: its {} and {} are x and y here",
                       names[normal], box.min()[normal], names[first], names[second]));
+    model_.mm_per_unit = mm_per_unit;
     for (const ModelTriangle& triangle : model_.triangles)
       for (const std::size_t node : triangle.nodes) {
         const Eigen::Vector3d& p = place(node);

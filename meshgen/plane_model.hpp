@@ -29,6 +29,7 @@ struct ModelTriangle {
 };
 
 struct PlaneModel {
+  double mm_per_unit = 1;                           // of the model's coordinates
   std::map<std::size_t, Eigen::Vector2d> position;  // mm, of the triangles' nodes
   std::vector<ModelTriangle> triangles;
   std::vector<std::string> body_names;

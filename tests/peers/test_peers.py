@@ -120,7 +120,7 @@ class PeerTest(ExportingTest):
                 for key in ("message", "parameters"):
                     self.assertIsInstance(said[key], str)
                 if "{tolerance}" in self.peer["command"] and not self.gave_up(said):
-                    self.assertLess(said["error_estimate"], 1e-12)
+                    self.assertLess(said["error_estimate"], 1e-11)  # rounding: up to 1.5e-12
                 self.assertEqual({"answer.json"} | FILES[self.peer["returns"]],
                                  {file.name for file in folder.iterdir()})
 

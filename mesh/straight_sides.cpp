@@ -1,0 +1,141 @@
+#include "mesh/straight_sides.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace airybench {
+namespace {
+
+using Line = Eigen::Hyperplane<double, 2>;
+
+int digits_of(double x) {
+  constexpr int shown = 12;
+  std::array<char, 32> buffer;  // "1.23000000000e+02"
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(x),
+                                 std::chars_format::scientific, shown - 1)
+                       .ptr;
+  const std::string_view text(buffer.data(), end);
+  const auto last = text.substr(0, text.find('e')).find_last_not_of("0.");
+  return last == text.npos ? 0 : std::max(1, static_cast<int>(last));
+}
+
+bool is_single(double x) {
+  constexpr double rounding = 1e-13;  // of a division by the unit
+  return std::abs(static_cast<double>(static_cast<float>(x)) - x) <= rounding * std::abs(x);
+}
+
+// Of coordinates of one sign: fields of fixed width hold a digit less of negative ones.
+struct Coordinates {
+  double largest = 0;
+  int digits = 0;
+  bool are_single = true;
+
+  void add(double x) {
+    largest = std::max(largest, std::abs(x));
+    digits = std::max(digits, digits_of(x));
+    are_single = are_single && is_single(x);
+  }
+  // A unit of the last digit of the largest; 0: fewer digits are meant exactly; none: not rounded.
+  std::optional<double> rounding() const {
+    constexpr int fewest = 6, most = 10;
+    if (digits < fewest) return 0;
+    if (digits <= most) return std::pow(10, std::floor(std::log10(largest)) + 1 - digits);
+    if (are_single) return largest * 0x1p-23;
+    return {};
+  }
+};
+
+// Consecutive boundary edges of one role.
+class Chain {
+ public:
+  Chain(Mesh& mesh, std::vector<int> rows) : mesh_(&mesh), rows_(std::move(rows)) {}
+
+  // 0: no edges bend by more than `least`, or where digits are few; none: they are not rounded.
+  std::optional<double> rounding_mm(double least, double mm_per_unit) {
+    Coordinates positive, negative;
+    for (std::size_t k = is_closed() ? 0 : 1; k < rows_.size(); ++k)
+      if (bend(k == 0 ? rows_.back() : rows_[k - 1], rows_[k]) > least)
+        for (const double x : start_of(rows_[k]) / mm_per_unit)
+          (x < 0 ? negative : positive).add(x);
+    const std::optional<double> one = positive.rounding(), other = negative.rounding();
+    if (!one || !other) return {};
+    return mm_per_unit * std::max(*one, *other);
+  }
+
+  void straighten(double least, double most, MovedVertices& moved) {
+    const auto is_corner = [&](int before, int row) { return bend(before, row) > most; };
+    if (is_closed())
+      if (const auto at = std::ranges::adjacent_find(rows_, is_corner); at != rows_.end())
+        std::ranges::rotate(rows_, at + 1);
+    for (std::size_t first = 0, k = 1; k <= rows_.size(); ++k) {
+      if (k < rows_.size() && !is_corner(rows_[k - 1], rows_[k])) continue;
+      straighten(std::span(rows_).subspan(first, k - first), least, most, moved);
+      first = k;
+    }
+  }
+
+ private:
+  Eigen::Vector2d& start_of(int row) { return mesh_->vertices[mesh_->boundary[row].vertices[0]]; }
+  Eigen::Vector2d& end_of(int row) { return mesh_->vertices[mesh_->boundary[row].vertices[1]]; }
+  bool is_closed() { return &start_of(rows_.front()) == &end_of(rows_.back()); }
+
+  // The distance of the vertex between two edges from the line through their other ends.
+  double bend(int before, int row) {
+    if (start_of(before) == end_of(row)) return std::numeric_limits<double>::infinity();
+    return Line::Through(start_of(before), end_of(row)).absDistance(start_of(row));
+  }
+
+  void straighten(std::span<const int> side, double least, double most, MovedVertices& moved) {
+    const Eigen::Vector2d &from = start_of(side.front()), &to = end_of(side.back());
+    if (from == to) return;
+    const Line line = Line::Through(from, to);
+    const auto distance = [&](int row) { return line.absDistance(start_of(row)); };
+    const std::span<const int> inner = side.subspan(1);  // they start where vertices may move
+    if (std::ranges::any_of(inner, [&](int row) { return distance(row) > most; })) return;
+    for (const int row : inner) {
+      if (distance(row) <= least) continue;
+      ++moved.count;
+      moved.furthest_mm = std::max(moved.furthest_mm, distance(row));
+      start_of(row) = line.projection(start_of(row));
+    }
+  }
+
+  Mesh* mesh_;
+  std::vector<int> rows_;
+};
+
+}  // namespace
+
+MovedVertices straighten_sides(Mesh& mesh, double mm_per_unit) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& vertex : mesh.vertices) box.extend(vertex);
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()),
+               least = 1e-13 * largest,  // double precision bends no edges by more
+      too_coarse = 1e-3 * box.sizes().minCoeff();
+  const std::vector<Eigen::Vector2d> before = mesh.vertices;
+  MovedVertices moved;
+  for (const BoundaryRole role : {BoundaryRole::displacement, BoundaryRole::force})
+    for (std::vector<int>& rows : boundary_chains(mesh, role)) {
+      Chain chain(mesh, std::move(rows));
+      const auto rounding = chain.rounding_mm(least, mm_per_unit);
+      if (rounding && *rounding > 0 && *rounding <= too_coarse)
+        chain.straighten(least, 1.5 * *rounding, moved);  // √2/2 of the vertex, √2/2 of the line
+    }
+  if (moved.count == 0) return {};
+  try {
+    validate(mesh);
+  } catch (const MeshError&) {  // triangles flatter than the rounding
+    mesh.vertices = before;
+    return {};
+  }
+  return moved;
+}
+
+}  // namespace airybench
