@@ -73,7 +73,7 @@ class Chain {
     const auto is_corner = [&](int before, int row) { return bend(before, row) > most; };
     if (is_closed())
       if (const auto at = std::ranges::adjacent_find(rows_, is_corner); at != rows_.end())
-        std::ranges::rotate(rows_, at + 1);
+        std::rotate(rows_.begin(), at + 1, rows_.end());
     for (std::size_t first = 0, k = 1; k <= rows_.size(); ++k) {
       if (k < rows_.size() && !is_corner(rows_[k - 1], rows_[k])) continue;
       straighten(std::span(rows_).subspan(first, k - first), least, most, moved);
