@@ -194,7 +194,9 @@ TEST_F(Convert, SidesThatRoundingBendsAreStraight) {
   for (Eigen::Vector2d& x : block.vertices)
     x = (x / inch).unaryExpr([](double c) { return std::round(c * 1e6) / 1e6; });
   const auto file = testing::write_text(folder_ / "block.msh", msh_text(block));
-  const auto [mesh, notes] = convert_model(file, model_options_of({}, {}, "", "inch"));
+  const ConvertedModel converted = convert_model(file, model_options_of({}, {}, "", "inch"));
+  const Mesh& mesh = converted.mesh;
+  const std::vector<std::string>& notes = converted.notes;
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("vertices moved onto straight sides: 8, by up to "), notes[0].npos)
       << notes[0];
