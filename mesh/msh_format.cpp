@@ -9,7 +9,6 @@
 #include <set>
 #include <sstream>
 
-#include "mesh/straight_sides.hpp"
 #include "support/called_as.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
@@ -228,7 +227,7 @@ std::vector<std::string> physical_curves(const Mesh& mesh) {
 
 }  // namespace
 
-Mesh read_msh(std::istream& in, const std::string& file_name) {
+Mesh read_msh(std::istream& in, const std::string& file_name, MovedVertices* straightened) {
   LineReader reader(in, file_name);
   Mesh mesh;
   if (reader.next_line("$MeshFormat") != "$MeshFormat")
@@ -254,7 +253,8 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   mesh.name = file_name;  // until it is known to be good, the file is the name to complain about
   try {
     validate(mesh);
-    straighten_sides(mesh);
+    const MovedVertices moved = straighten_sides(mesh);
+    if (straightened) *straightened = moved;
   } catch (const MeshError& error) {  // clockwise, or without a role: converted by --convert
     throw ForeignMeshError(error.what());
   }
@@ -262,7 +262,7 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   return mesh;
 }
 
-Mesh read_msh(const std::filesystem::path& file) {
+Mesh read_msh(const std::filesystem::path& file, MovedVertices* straightened) {
   std::string text;
   try {
     text = file_text(file);
@@ -270,7 +270,7 @@ Mesh read_msh(const std::filesystem::path& file) {
     throw MeshError(error.what());
   }
   std::istringstream in(std::move(text));
-  return read_msh(in, file.string());
+  return read_msh(in, file.string(), straightened);
 }
 
 void write_msh(std::ostream& out, const Mesh& mesh) {

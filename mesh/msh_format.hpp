@@ -14,6 +14,7 @@
 #include <string>
 
 #include "mesh/mesh.hpp"
+#include "mesh/straight_sides.hpp"
 
 namespace airybench {
 
@@ -25,8 +26,9 @@ struct ForeignMeshError : MeshError {
 // Reads, validates and straightens sides (straight_sides.hpp). Throws MeshError with one line
 // "file:line: entity: what is wrong".
 // Mesh::name is the file's name without folder and ".msh".
-Mesh read_msh(const std::filesystem::path& file);
-Mesh read_msh(std::istream& in, const std::string& file_name);
+Mesh read_msh(const std::filesystem::path& file, MovedVertices* straightened = nullptr);
+Mesh read_msh(std::istream& in, const std::string& file_name,
+              MovedVertices* straightened = nullptr);
 
 // Writes the one canonical text of a mesh: numbers from 1 in order, coordinates in the shortest
 // form that reads back as the same double; equal meshes give equal bytes.

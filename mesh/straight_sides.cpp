@@ -5,9 +5,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <optional>
 #include <span>
+#include <sstream>
 #include <string_view>
 
 namespace airybench {
@@ -112,6 +114,13 @@ class Chain {
 };
 
 }  // namespace
+
+std::string MovedVertices::words() const {
+  std::ostringstream text;
+  text << "vertices moved onto straight sides: " << count << ", by up to " << std::setprecision(2)
+       << furthest_mm << " mm, the rounding of its coordinates";
+  return text.str();
+}
 
 MovedVertices straighten_sides(Mesh& mesh, double mm_per_unit) {
   Eigen::AlignedBox2d box;

@@ -12,6 +12,7 @@ namespace airybench {
 struct MovedVertices {
   int count = 0;
   double furthest_mm = 0;
+  std::string words() const;  // for a note
 };
 
 // Moves the vertices between displacement edges, or force edges, of a valid mesh onto the line

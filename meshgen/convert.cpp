@@ -223,10 +223,7 @@ ConvertedModel convert_model(const std::filesystem::path& file, const ModelOptio
   mesh.name = file.string();  // for validate() to complain about
   validate(mesh);
   if (const auto moved = straighten_sides(mesh, model.mm_per_unit); moved.count > 0)
-    converted.notes.push_back(fmt::format(
-        "vertices moved onto straight sides: {}, by up to {:.2g} mm, the rounding of its "
-        "coordinates",
-        moved.count, moved.furthest_mm));
+    converted.notes.push_back(moved.words());
   mesh.name = model_name(file);
   return converted;
 }

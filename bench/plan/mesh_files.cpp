@@ -118,7 +118,10 @@ MeshFile read_or_convert(const std::filesystem::path& path, const Options& optio
       is_of_catalogue(path) || std::ranges::none_of(settings, changes_any_mesh);
   if (!is_msh || !is_as_it_is) return converted(path, options, settings);
   try {
-    return read_mesh_file(path);
+    MeshFile file = read_mesh_file(path);
+    if (file.straightened.count > 0)
+      std::cerr << fmt::format("note: {}: {}\n", path.string(), file.straightened.words());
+    return file;
   } catch (const ForeignMeshError&) {
     if (!program_of_ours(converter) || is_of_catalogue(path)) throw;
   }
@@ -131,9 +134,10 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   if (is_of_catalogue(path))
     if (const auto refined = parse_refined_name(path.stem().string()))
       return refined_mesh(path, *refined);
-  Mesh mesh = read_msh(path);
+  MovedVertices straightened;
+  Mesh mesh = read_msh(path, &straightened);
   check_name(mesh, path);
-  return {path, sha256_of_file(path), std::move(mesh)};
+  return {path, sha256_of_file(path), std::move(mesh), false, straightened};
 }
 
 std::vector<MeshFile> read_meshes(const Options& options, const Settings& of_scene) {

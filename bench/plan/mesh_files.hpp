@@ -7,6 +7,7 @@
 
 #include "bench/plan/options.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/straight_sides.hpp"
 
 namespace airybench {
 
@@ -15,6 +16,7 @@ struct MeshFile {
   std::string sha256;
   Mesh mesh;
   bool is_of_model = false;  // converted from a model: the file may not exist yet
+  MovedVertices straightened = {};
 };
 
 std::filesystem::path mesh_directory();  // $AIRYBENCH_MESH_DIR, else the program's own catalogue

@@ -115,8 +115,12 @@ TEST(StraightSides, RoundedCoordinatesBendNoMore) {
 TEST(StraightSides, MeshFilesAreReadSo) {
   const Mesh before = rounded(held_block(), to_digits(7));
   std::istringstream file(msh_text(before));
-  const Mesh mesh = read_msh(file, "block.msh");
+  MovedVertices moved;
+  const Mesh mesh = read_msh(file, "block.msh", &moved);
   EXPECT_LT(largest_bend(mesh), 1e-12);
+  const std::string words = "vertices moved onto straight sides: " + std::to_string(moved.count);
+  EXPECT_GT(moved.count, 10);
+  EXPECT_TRUE(moved.words().starts_with(words + ", by up to ")) << moved.words();
   std::istringstream again(msh_text(mesh));
   EXPECT_EQ(furthest(read_msh(again, "block.msh"), mesh), 0);
 }

@@ -142,7 +142,12 @@ std::vector<Kind> kinds() {
       {"trapezium.msh.gz", {}, held_above, {"no role is given to its curves 'sides': they are"}},
       {"trapezium.unv", {}, held_above, {"no role is given to its curves 'sides': they are"}},
       {"trapezium.vtk", by_numbers, held_above, {free_2_4}, "", body},
-      {"trapezium.bdf", by_numbers, held_above, {free_2_4}, "", body},
+      {"trapezium.bdf",
+       by_numbers,
+       held_above,
+       {free_2_4, "vertices moved onto straight sides: "},  // fields of 8 characters
+       "",
+       body},
       {"trapezium.mesh", by_numbers, held_above, {free_2_4}, "", body},
       {"trapezium.stl", by_numbers, held_above, {free_2_4}, "", body},
       {"trapezium.brep", by_numbers, held_above, {free_2_4}, "", body},
