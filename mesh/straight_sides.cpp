@@ -125,9 +125,9 @@ std::string MovedVertices::words() const {
 MovedVertices straighten_sides(Mesh& mesh, double mm_per_unit) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& vertex : mesh.vertices) box.extend(vertex);
-  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()),
-               least = 1e-13 * largest,  // double precision bends no edges by more
-      too_coarse = 1e-3 * box.sizes().minCoeff();
+  // Double precision bends no edges by more than `least`.
+  const double least = 1e-13 * box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff(),
+               too_coarse = 1e-3 * box.sizes().minCoeff();
   const std::vector<Eigen::Vector2d> before = mesh.vertices;
   MovedVertices moved;
   for (const BoundaryRole role : {BoundaryRole::displacement, BoundaryRole::force})
