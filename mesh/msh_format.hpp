@@ -24,8 +24,7 @@ struct ForeignMeshError : MeshError {
 };
 
 // Reads, validates and straightens sides (straight_sides.hpp). Throws MeshError with one line
-// "file:line: entity: what is wrong".
-// Mesh::name is the file's name without folder and ".msh".
+// "file:line: entity: what is wrong". Mesh::name is the file's name without folder and ".msh".
 Mesh read_msh(const std::filesystem::path& file, MovedVertices* straightened = nullptr);
 Mesh read_msh(std::istream& in, const std::string& file_name,
               MovedVertices* straightened = nullptr);

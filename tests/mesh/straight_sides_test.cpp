@@ -10,12 +10,13 @@
 #include <sstream>
 
 #include "mesh/msh_format.hpp"
+#include "tests/support/mesh_checks.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::straight_sides_test {
 namespace {
 
-using testing::small_block, testing::with_role;
+using testing::largest_bend, testing::small_block, testing::with_role;
 using Rounding = std::function<double(double)>;
 
 Rounding to_digits(int digits) {
@@ -44,24 +45,6 @@ Mesh held_block() {
   return with_role(
       with_role(small_block(6, 6, 30), BoundaryRole::force, BoundaryRole::displacement),
       BoundaryRole::contact, BoundaryRole::displacement);
-}
-
-// The largest sine between displacement edges that follow one another, unless it is a corner's.
-double largest_bend(const Mesh& mesh) {
-  double largest = 0;
-  for (const BoundaryEdge& edge : mesh.boundary)
-    for (const BoundaryEdge& next : mesh.boundary) {
-      if (edge.role != BoundaryRole::displacement || next.role != BoundaryRole::displacement ||
-          edge.vertices[1] != next.vertices[0])
-        continue;
-      const auto along = [&](const BoundaryEdge& of) -> Eigen::Vector2d {
-        return (mesh.vertices[of.vertices[1]] - mesh.vertices[of.vertices[0]]).normalized();
-      };
-      const Eigen::Vector2d a = along(edge), b = along(next);
-      if (const double sine = std::abs(a.x() * b.y() - a.y() * b.x()); sine < 0.3)
-        largest = std::max(largest, sine);
-    }
-  return largest;
 }
 
 double furthest(const Mesh& one, const Mesh& other) {

@@ -6,7 +6,6 @@
 #include "meshgen/gmsh_mesher.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::convert_test {
@@ -186,30 +185,6 @@ TEST_F(Convert, HigherOrderIsReducedToCorners) {
               std::vector<std::string>{"elements of higher order are reduced to their corners"});
   }
   EXPECT_TRUE(convert_model(folder_ / "first.geo").notes.empty());
-}
-
-TEST_F(Convert, SidesThatRoundingBendsAreStraight) {
-  constexpr double inch = 25.4;
-  Mesh block = small_block(4, 4, 30);
-  for (Eigen::Vector2d& x : block.vertices)
-    x = (x / inch).unaryExpr([](double c) { return std::round(c * 1e6) / 1e6; });
-  const auto file = testing::write_text(folder_ / "block.msh", msh_text(block));
-  const ConvertedModel converted = convert_model(file, model_options_of({}, {}, "", "inch"));
-  const Mesh& mesh = converted.mesh;
-  const std::vector<std::string>& notes = converted.notes;
-  ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("vertices moved onto straight sides: 8, by up to "), notes[0].npos)
-      << notes[0];
-  const Eigen::Vector2d along(-0.5, std::sqrt(0.75));
-  const std::vector<int> root = boundary_chains(mesh, BoundaryRole::displacement).at(0);
-  for (std::size_t k = 1; k < root.size(); ++k) {
-    const auto direction = [&](std::size_t i) -> Eigen::Vector2d {
-      const auto [a, b] = mesh.boundary[root[i]].vertices;
-      return (mesh.vertices[b] - mesh.vertices[a]).normalized();
-    };
-    EXPECT_LT((direction(k) - direction(k - 1)).norm(), 1e-12);
-    EXPECT_LT((direction(k) + along).norm(), 1e-4);
-  }
 }
 
 TEST_F(Convert, RolesByTheNamesOfTheModel) {

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <fstream>
 
+#include "mesh/msh_format.hpp"
 #include "meshgen/convert.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::foreign_models_test {
@@ -207,6 +209,25 @@ TEST(ForeignModel, SizesAreInMillimetresWhateverTheUnit) {
     const Mesh mesh = convert_model(file, model_options_of({}, {}, "0.5", "m")).mesh;
     EXPECT_GT(mesh_sizes(mesh).contact_edges, 18) << factor;
     EXPECT_LT(mesh_sizes(mesh).contact_edges, 24) << factor;
+  }
+}
+
+TEST(ForeignModel, SidesThatRoundingBendsAreStraight) {
+  constexpr double inch = 25.4;
+  Mesh block = testing::small_block(4, 4, 30);
+  for (Eigen::Vector2d& x : block.vertices)
+    x = (x / inch).unaryExpr([](double c) { return std::round(c * 1e6) / 1e6; });
+  const testing::TemporaryFolder folder;
+  const auto file = testing::write_text(folder / "block.msh", msh_text(block));
+  const auto [mesh, notes] = convert_model(file, model_options_of({}, {}, "", "inch"));
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(notes[0].starts_with("vertices moved onto straight sides: 8, by up to ")) << notes[0];
+  EXPECT_LT(testing::largest_bend(mesh), 1e-12);
+  const Eigen::Vector2d along(-0.5, std::sqrt(0.75));
+  const auto chains = boundary_chains(mesh, BoundaryRole::displacement);
+  for (const int row : chains.at(0)) {
+    const auto [a, b] = mesh.boundary[row].vertices;
+    EXPECT_LT(((mesh.vertices[b] - mesh.vertices[a]).normalized() + along).norm(), 1e-4);
   }
 }
 

@@ -43,6 +43,24 @@ inline std::map<std::string, double> length_of_boundaries(const Mesh& mesh) {
   return length;
 }
 
+// The largest sine between displacement edges that follow one another, unless it is a corner's.
+inline double largest_bend(const Mesh& mesh) {
+  double largest = 0;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    for (const BoundaryEdge& next : mesh.boundary) {
+      if (edge.role != BoundaryRole::displacement || next.role != BoundaryRole::displacement ||
+          edge.vertices[1] != next.vertices[0])
+        continue;
+      const auto along = [&](const BoundaryEdge& of) -> Eigen::Vector2d {
+        return (mesh.vertices[of.vertices[1]] - mesh.vertices[of.vertices[0]]).normalized();
+      };
+      const Eigen::Vector2d a = along(edge), b = along(next);
+      if (const double sine = std::abs(a.x() * b.y() - a.y() * b.x()); sine < 0.3)
+        largest = std::max(largest, sine);
+    }
+  return largest;
+}
+
 // As it was before: the same bodies with the same roles and groups on their boundary.
 inline void expect_same_body(const Mesh& fine, const Mesh& coarse) {
   EXPECT_NO_THROW(validate(fine));
