@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <optional>
+#include <numeric>
 #include <vector>
 
 #include "assembly/small_cholesky.hpp"
+#include "bench/verify/displacement_constraints.hpp"
 #include "bench/verify/own_displacement.hpp"
 #include "bench/verify/vertex_stars.hpp"
+#include "bench/verify/zone_recovery.hpp"
 
 namespace airybench {
 namespace {
@@ -96,18 +97,6 @@ void for_triangles(const Problem& problem, Visit visit) {
           triangle_nodes<k + 1>(problem, t));
 }
 
-template <int k>
-Eigen::Matrix2Xd half_gradient(const Problem& problem, const std::vector<LocalCoefficients<k>>& own,
-                               const DisplacementField& w) {
-  Eigen::Matrix2Xd gradient = Eigen::Matrix2Xd::Zero(2, w.cols());
-  for_triangles<k>(
-      problem, [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A, const auto& nodes) {
-        const LocalCoefficients<k> force = half_gradient<k>(shape, A, own[t], w, nodes);
-        for (int m = 0; m < Triangle<k>::nodes; ++m) gradient.col(nodes[m]) += force.col(m);
-      });
-  return gradient;
-}
-
 // Sets the inner coefficients to those that minimise ‖σ − Aε(w)‖ for the others: K_ii d = −f_i.
 template <int k>
 void set_inner(const Problem& problem, const std::vector<LocalCoefficients<k>>& own,
@@ -126,225 +115,156 @@ void set_inner(const Problem& problem, const std::vector<LocalCoefficients<k>>& 
     });
 }
 
-struct Barrier {
-  Eigen::Vector2d normal;
-  double limit;
-  double excess(const Eigen::Vector2d& w) const { return normal.dot(w) - limit; }
-};
-// A node at a wall; or a node of one body and its partner of another, for the difference of their
-// displacements.
-struct ContactNode {
-  static constexpr int none = -1;
-  int partner = none;
-  std::vector<Barrier> walls;  // one or two
-  ContactOffset offset;
-  Eigen::Vector2d force = {0, 0};                             // ∫ σn B over Γ_C, N
-  double friction = std::numeric_limits<double>::infinity();  // smallest μ of its edges
-};
-
-template <int k>
-std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::VectorXd& F_C) {
-  constexpr int p = k + 1;
-  const Problem& problem = *system.problem;
-  const int m = system.contact.components;
-  std::map<int, ContactNode> contact;
-  for (int point = 0; point < system.contact.count; point += k + 1) {
-    const int row = system.contact.boundary[point], other = problem.opposite_of(row);
-    if (problem.is_second_of_pair(row)) continue;
-    const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
-    std::array<Eigen::Vector2d, k + 1> force;
-    for (int j = 0; j <= k; ++j) {
-      const EdgeFrame frame = problem.frame_of_moment(row, k, j);
-      const int at = m * (point + j);
-      force[j] = F_C(at) * frame.normal + (m == 2 ? F_C(at + 1) : 0) * frame.tangent;
-    }
-    std::array<ContactOffset, p + 1> offset = offset_coefficients<p>(problem, row);
-    if (other != Problem::no_row) {
-      const std::array<int, p + 1> partners = boundary_nodes<p>(problem, other);
-      const std::array<ContactOffset, p + 1> beyond = offset_coefficients<p>(problem, other);
-      for (int i = 0; i <= p; ++i) {
-        contact[nodes[i]].partner = partners[p - i];
-        offset[i].gap_mm += beyond[p - i].gap_mm;
-        offset[i].slid_mm += beyond[p - i].slid_mm;
-        offset[i].motion_mm -= beyond[p - i].motion_mm;
-      }
-    }
-    const std::array<double, p + 1> lowered = elevated<p>(problem.wall_detail_at(row).lowered_mm);
-    for (int i = 0; i <= p; ++i) {
-      ContactNode& node = contact[nodes[i]];
-      node.offset = offset[i];
-      const Eigen::Vector2d normal = frame_of_coefficient<p>(problem, row, i).normal;
-      node.walls.push_back(
-          {normal, offset[i].gap_mm - lowered[i] - normal.dot(offset[i].motion_mm)});
-      node.friction = std::min(node.friction, system.contact.friction_at(point));
-      for (int j = 0; j <= k; ++j) node.force += edge_moment(k, j, p, i) * force[j];
-    }
-  }
-  return contact;
-}
-
-Eigen::Vector2d behind(const std::vector<Barrier>& walls, const Eigen::Vector2d& w) {
-  const auto moved = [](const Barrier& wall, const Eigen::Vector2d& x) {
-    return Eigen::Vector2d(x - std::max(0.0, wall.excess(x)) * wall.normal);
-  };
-  const Barrier &one = walls.front(), &other = walls.back();
-  const Eigen::Vector2d &n = one.normal, &m = other.normal;
-  const double sine = n.x() * m.y() - n.y() * m.x();
-  if (std::abs(sine) < straight_roller) return moved(one, moved(other, moved(one, w)));
-  if (const Eigen::Vector2d x = moved(one, w); other.excess(x) <= 0) return x;
-  if (const Eigen::Vector2d x = moved(other, w); one.excess(x) <= 0) return x;
-  return Eigen::Vector2d(one.limit * m.y() - other.limit * n.y(),
-                         other.limit * n.x() - one.limit * m.x()) /
-         sine;
-}
-
-// Minimises ½ k |w − w_0|² + F_n (w_n − g) + μ|F_n||Δ| + F_t Δ, Δ = w_t + ρ_t − s, behind the
-// walls: both contact terms of e² plus the cost of moving w in the first term. A closed node moves
-// to the wall, a sticking one back to its old place.
-Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vector2d& w_0) {
-  Eigen::Vector2d n = node.walls.front().normal;
-  if (node.walls.size() == 2) n = (n + node.walls.back().normal).normalized();
-  const Eigen::Vector2d t(-n.y(), n.x());
-  const double slope = node.friction * std::abs(n.dot(node.force)) / k,
-               at_rest = node.offset.along(n).y(), slid = t.dot(w_0 - node.force / k) - at_rest;
-  const double w_n = n.dot(w_0 - node.force / k),
-               w_t = at_rest + std::copysign(std::max(0.0, std::abs(slid) - slope), slid);
-  return behind(node.walls, w_n * n + w_t * t);
-}
-
 // Of the Jacobi step: λmax grows like k + 3 (4.3, 5.1, 6.1, 7.2 on right triangles, ν = 0.3).
 template <int k>
 constexpr double damping = 2.4 / (k + 3);
 
-class Constraints {
- public:
-  template <int k>
-  Constraints(std::integral_constant<int, k>, const DualSystem& system, const Eigen::VectorXd& F_C)
-      : given_(prescribed_displacement(*system.problem, k + 1)),
-        contact_(contact_nodes<k>(system, F_C)) {}
+// Neighbours hold one another in triangles whose height is below this share of their longest side.
+constexpr double thin = 0.2;
 
-  std::vector<bool> nodes() const {
-    std::vector<bool> nodes = given_.at;
-    for (const auto& [node, normal] : given_.normal) nodes[static_cast<std::size_t>(node)] = true;
-    for (const auto& [node, contact] : contact_) {
-      nodes[static_cast<std::size_t>(node)] = true;
-      if (contact.partner != ContactNode::none)
-        nodes[static_cast<std::size_t>(contact.partner)] = true;
-    }
-    return nodes;
-  }
+bool is_thin(const TriangleShape& shape) {
+  const auto &a = shape.B.col(0), &b = shape.B.col(1);
+  const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm()});
+  return 2 * shape.area_mm2 < thin * longest;
+}
 
-  // stiffness: per node, k of in_contact().
-  void apply(const Eigen::VectorXd& stiffness, DisplacementField& w) const {
-    for (Eigen::Index node = 0; node < w.cols(); ++node)
-      if (given_.at[static_cast<std::size_t>(node)]) w.col(node) = given_.u.col(node);
-    for (const auto& [node, n] : given_.normal)
-      w.col(node) += given_.u.col(node) - n * n.dot(w.col(node));
-    for (const auto& [number, node] : contact_) {
-      if (node.partner != ContactNode::none) {
-        move_pair(number, node, stiffness, w);
-        continue;
-      }
-      if (given_.at[static_cast<std::size_t>(number)]) continue;
-      if (const auto roller = given_.normal.find(number); roller != given_.normal.end())
-        move_along_roller(roller->second, node.walls, w.col(number));
-      else
-        w.col(number) = in_contact(node, stiffness(number), w.col(number));
-    }
-  }
-
- private:
-  // Each takes the part of the change that its stiffness leaves it; along a roller only what takes
-  // both apart.
-  void move_pair(int one, const ContactNode& node, const Eigen::VectorXd& stiffness,
-                 DisplacementField& w) const {
-    const std::array<int, 2> nodes = {one, node.partner};
-    std::array<double, 2> softness{};
-    std::array<std::optional<Eigen::Vector2d>, 2> along;
-    for (const int k : {0, 1}) {
-      if (given_.at[static_cast<std::size_t>(nodes[k])]) continue;
-      softness[k] = 1 / stiffness(nodes[k]);
-      if (const auto roller = given_.normal.find(nodes[k]); roller != given_.normal.end())
-        along[k] = Eigen::Vector2d(-roller->second.y(), roller->second.x());
-    }
-    const double both = softness[0] + softness[1];
-    if (both == 0) return;
-    const auto apart = [&] { return Eigen::Vector2d(w.col(nodes[0]) - w.col(nodes[1])); };
-    if (!along[0] && !along[1]) {
-      const Eigen::Vector2d before = apart(), change = in_contact(node, 1 / both, before) - before;
-      for (const int k : {0, 1}) w.col(nodes[k]) += (k == 0 ? 1 : -1) * softness[k] / both * change;
-      return;
-    }
-    for (const Barrier& wall : node.walls) {
-      std::array<Eigen::Vector2d, 2> way;
-      double yields = 0;
-      for (const int k : {0, 1}) {
-        const Eigen::Vector2d axis = along[k].value_or(wall.normal);
-        way[k] = softness[k] * wall.normal.dot(axis) * axis;
-        yields += wall.normal.dot(way[k]);
-      }
-      if (yields < straight_roller * straight_roller * both) continue;
-      const double excess = std::max(0.0, wall.excess(apart()));
-      w.col(nodes[0]) -= excess / yields * way[0];
-      w.col(nodes[1]) += excess / yields * way[1];
-    }
-  }
-  static void move_along_roller(const Eigen::Vector2d& normal, const std::vector<Barrier>& walls,
-                                Eigen::Ref<Eigen::Vector2d> w) {
-    const Eigen::Vector2d along(-normal.y(), normal.x());
-    for (const Barrier& wall : walls)
-      if (const double cosine = wall.normal.dot(along); std::abs(cosine) >= straight_roller)
-        w -= std::max(0.0, wall.excess(w)) / cosine * along;
-  }
-
-  PrescribedDisplacement given_;
-  std::map<int, ContactNode> contact_;
+// A damped Jacobi step on ½ e².
+struct JacobiStep {
+  DisplacementField w;
+  Eigen::Matrix2Xd gradient;  // before the step, of `distance`; N
+  double distance_Nmm = 0;    // there: ½ Σ (w − w_T)ᵀ K_T (w − w_T)
+  Eigen::VectorXd gain_Nmm;  // per node: what can be gained of it, by the step or in thin triangles
 };
 
 template <int k>
-DisplacementField recovered(const DualSystem& system, const StressField& stress,
-                            const Eigen::VectorXd& F_C, const Eigen::MatrixXd& edge_moments) {
-  static const OwnDisplacement<k> own_displacement;
-  const Problem& problem = *system.problem;
-  const int nodes = displacement_nodes(problem, k + 1);
-  std::vector<LocalCoefficients<k>> own(stress.size());
-  DisplacementField w = DisplacementField::Zero(2, nodes);
-  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(nodes);
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const TriangleShape shape(problem.vertices_of(t));
-    const Eigen::Matrix3d& compliance = problem.compliance_of(t);
-    own[t] = own_displacement(shape, compliance, stress[t]);
-    set_rigid_motion<k>(problem, t, edge_moments, own[t]);
-    const Eigen::Matrix<double, Triangle<k>::nodes, 1> weight = stiffnesses<k>(shape, compliance);
-    const auto node = triangle_nodes<k + 1>(problem, t);
-    for (int m = 0; m < Triangle<k>::nodes; ++m) {
-      w.col(node[m]) += weight(m) * own[t].col(m);
-      stiffness(node[m]) += weight(m);
+class Recovery {
+ public:
+  Recovery(const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
+           const Eigen::MatrixXd& edge_moments)
+      : problem_(*system.problem), own_(stress.size()), constraints_(system, k, F_C) {
+    static const OwnDisplacement<k> own_displacement;
+    const int nodes = displacement_nodes(problem_, k + 1);
+    w_ = DisplacementField::Zero(2, nodes);
+    stiffness_ = Eigen::VectorXd::Zero(nodes);
+    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+      const TriangleShape shape(problem_.vertices_of(t));
+      const Eigen::Matrix3d& compliance = problem_.compliance_of(t);
+      own_[t] = own_displacement(shape, compliance, stress[t]);
+      set_rigid_motion<k>(problem_, t, edge_moments, own_[t]);
+      const Eigen::Matrix<double, Triangle<k>::nodes, 1> weight = stiffnesses<k>(shape, compliance);
+      const auto node = triangle_nodes<k + 1>(problem_, t);
+      for (int m = 0; m < Triangle<k>::nodes; ++m) {
+        w_.col(node[m]) += weight(m) * own_[t].col(m);
+        stiffness_(node[m]) += weight(m);
+      }
+    }
+    w_.array().rowwise() /= stiffness_.transpose().array();
+    constraints_.apply(stiffness_, w_);
+    stiffness_ /= damping<k>;
+  }
+
+  DisplacementField displacement() {
+    w_ = step().w;
+    if (need_vertex_stars(problem_)) {
+      const std::vector<bool> held = constraints_.nodes();
+      VertexStars<k> stars(problem_, own_, held);
+      for (int sweep = 0; sweep < 2; ++sweep) stars.sweep(w_);
+    }
+    improve_where_needed();
+    set_inner<k>(problem_, own_, w_);
+    return std::move(w_);
+  }
+
+ private:
+  JacobiStep step() const {
+    JacobiStep result;
+    result.gradient = Eigen::Matrix2Xd::Zero(2, w_.cols());
+    result.gain_Nmm = Eigen::VectorXd::Zero(w_.cols());
+    for_triangles<k>(problem_, [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
+                                   const auto& nodes) {
+      const LocalCoefficients<k> force = half_gradient<k>(shape, A, own_[t], w_, nodes);
+      double distance = 0;
+      for (int m = 0; m < Triangle<k>::nodes; ++m) {
+        result.gradient.col(nodes[m]) += force.col(m);
+        distance += force.col(m).dot(w_.col(nodes[m]) - own_[t].col(m)) / 2;
+      }
+      result.distance_Nmm += distance;
+      if (is_thin(shape))
+        for (const int node : nodes) result.gain_Nmm(node) += distance / Triangle<k>::nodes;
+    });
+    result.w = w_.array() - result.gradient.array().rowwise() / stiffness_.transpose().array();
+    constraints_.apply(stiffness_, result.w);
+    result.gain_Nmm.array() +=
+        stiffness_.array() / 2 * (result.w - w_).colwise().squaredNorm().transpose().array();
+    return result;
+  }
+
+  // Zones, while there is more to gain than this share of the distance. What is true error stays in
+  // thin triangles, too: a zone is worth another one only if it has lowered the distance by far.
+  void improve_where_needed() {
+    constexpr double enough = 0.25, far = 10;
+    constexpr int max_zones = 4;
+    double before = std::numeric_limits<double>::infinity();
+    for (int zones = 0;; ++zones) {
+      JacobiStep next = step();
+      const bool is_done = zones == max_zones ||
+                           !(next.gain_Nmm.sum() > enough * next.distance_Nmm) ||
+                           far * next.distance_Nmm > before;
+      if (is_done && zones > 0) w_ = std::move(next.w);  // behind the walls
+      if (is_done) return;
+      before = next.distance_Nmm;
+      improve_zone_of(next);
     }
   }
-  w.array().rowwise() /= stiffness.transpose().array();
-  const Constraints constraints(std::integral_constant<int, k>(), system, F_C);
-  constraints.apply(stiffness, w);
 
-  stiffness /= damping<k>;
-  w.array() -= half_gradient<k>(problem, own, w).array().rowwise() / stiffness.transpose().array();
-  constraints.apply(stiffness, w);
-  if (need_vertex_stars(problem)) {
-    const std::vector<bool> held = constraints.nodes();
-    VertexStars<k> stars(problem, own, held);
-    for (int sweep = 0; sweep < 2; ++sweep) stars.sweep(w);
+  // All nodes but those where together hardly anything is to be gained, and two rings of triangles.
+  void improve_zone_of(const JacobiStep& next) {
+    constexpr double hardly_anything = 0.01;  // of the distance
+    constexpr int rings = 2;
+    std::vector<int> by_gain(static_cast<std::size_t>(w_.cols()));
+    std::iota(by_gain.begin(), by_gain.end(), 0);
+    std::ranges::sort(by_gain, {}, [&](int node) { return next.gain_Nmm(node); });
+    std::vector<bool> is_free(by_gain.size(), false);
+    double sum = 0;
+    for (const int node : by_gain)
+      is_free[node] = (sum += next.gain_Nmm(node)) > hardly_anything * next.distance_Nmm;
+    for (int ring = 0; ring < rings; ++ring) is_free = with_neighbours(is_free);
+    std::vector<ZoneTriangle> zone;
+    for_triangles<k>(problem_, [&](int, const TriangleShape& shape, const Eigen::Matrix3d& A,
+                                   const auto& nodes) {
+      if (std::ranges::any_of(nodes, [&](int node) { return is_free[node]; }))
+        zone.push_back({{nodes.begin(), nodes.end()}, Triangle<k>::stiffness(shape, A)});
+    });
+    improve_zone(constraints_, zone, std::move(is_free), next.gradient, w_);
   }
-  set_inner<k>(problem, own, w);
-  return w;
-}
+  std::vector<bool> with_neighbours(const std::vector<bool>& chosen) const {
+    std::vector<bool> wider = chosen;
+    for (int t = 0; t < static_cast<int>(problem_.mesh.triangles.size()); ++t) {
+      const auto nodes = triangle_nodes<k + 1>(problem_, t);
+      if (std::ranges::any_of(nodes, [&](int node) { return chosen[node]; }))
+        for (const int node : nodes) wider[node] = true;
+    }
+    for (const auto& [node, contact] : constraints_.contact())
+      if (const int partner = contact.partner; partner != ContactNode::none)
+        wider[node] = wider[partner] = wider[node] || wider[partner];
+    return wider;
+  }
+
+  const Problem& problem_;
+  std::vector<LocalCoefficients<k>> own_;  // per triangle: w_T
+  DisplacementConstraints constraints_;
+  DisplacementField w_;
+  Eigen::VectorXd stiffness_;  // per node, of a Jacobi step
+};
 
 }  // namespace
 
 DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
                                          const Eigen::MatrixXd& edge_moments) {
-  return with_degree(stress.degree(),
-                     [&](auto k) { return recovered<k>(system, stress, F_C, edge_moments); });
+  return with_degree(stress.degree(), [&](auto k) {
+    return Recovery<k>(system, stress, F_C, edge_moments).displacement();
+  });
 }
 
 DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
@@ -359,7 +279,7 @@ DisplacementField admissible_displacement(const DualSystem& system, const Eigen:
       for (std::size_t m = 0; m < node.size(); ++m)
         stiffness(node[m]) += weight(static_cast<Eigen::Index>(m));
     }
-    Constraints(k, system, F_C).apply(stiffness, w);
+    DisplacementConstraints(system, k, F_C).apply(stiffness, w);
     return w;
   });
 }

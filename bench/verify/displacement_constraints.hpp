@@ -1,0 +1,65 @@
+// What makes a displacement admissible, node by node: u0 on Γ_D, and the walls on Γ_C; with the
+// contact terms of e² that act on a node.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <vector>
+
+#include "assembly/displacement_field.hpp"
+#include "assembly/dual_system.hpp"
+
+namespace airybench {
+
+// A wall in front of a node: normal·w ≤ limit.
+struct Barrier {
+  Eigen::Vector2d normal;
+  double limit;
+  double excess(const Eigen::Vector2d& w) const { return normal.dot(w) - limit; }
+};
+
+// A node at a wall; or a node of one body and its partner of another, for the difference of their
+// displacements.
+struct ContactNode {
+  static constexpr int none = -1;
+  int partner = none;
+  std::vector<Barrier> walls;  // one or two
+  ContactOffset offset;
+  Eigen::Vector2d force = {0, 0};                             // ∫ σn B over Γ_C, N
+  double friction = std::numeric_limits<double>::infinity();  // smallest μ of its edges
+
+  Eigen::Vector2d normal() const {  // of two walls the mean
+    const Eigen::Vector2d& n = walls.front().normal;
+    return walls.size() == 1 ? n : (n + walls.back().normal).normalized();
+  }
+};
+
+class DisplacementConstraints {
+ public:
+  // F_C: of stresses of the degree k; displacements have one more.
+  DisplacementConstraints(const DualSystem& system, int k, const Eigen::VectorXd& F_C);
+
+  // Sets w to u0 on Γ_D. On Γ_C it takes the proximal step of the contact terms: minimises
+  //
+  //   ½ d |w − w_0|² + F_n (w_n − g) + μ|F_n||Δ| + F_t Δ,   Δ = w_t + ρ_t − s
+  //
+  // behind the walls, d the node's `stiffness`. A closed node moves to the wall, a sticking one
+  // back to its old place.
+  void apply(const Eigen::VectorXd& stiffness, DisplacementField& w) const;
+
+  std::vector<bool> nodes() const;  // those that it acts on
+  const PrescribedDisplacement& given() const { return given_; }
+  const std::map<int, ContactNode>& contact() const { return contact_; }
+  bool is_given(int node) const {
+    return given_.at[static_cast<std::size_t>(node)] || given_.normal.contains(node);
+  }
+
+ private:
+  void move_pair(int one, const ContactNode& node, const Eigen::VectorXd& stiffness,
+                 DisplacementField& w) const;
+
+  PrescribedDisplacement given_;
+  std::map<int, ContactNode> contact_;
+};
+
+}  // namespace airybench
