@@ -36,6 +36,9 @@ std::vector<std::string> split_method_list(std::string_view list);
 // "HYBRID", "HYBRID:k=2", …, up to the highest degree of stresses.
 std::string hybrid_of_degree(int degree);
 extern const int highest_degree;
+// With HYBRID, HYBRID:CHOLMOD and HYBRID:MUMPS in stresses of this degree, unless a name states its
+// own ("HYBRID:k=1").
+std::vector<Method> at_degree(std::vector<Method> methods, int degree);
 // "P2", "P3", "P4": of the displacements, whose stresses have one degree less.
 std::string displacements_of_degree(int degree);
 

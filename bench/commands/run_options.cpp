@@ -86,8 +86,8 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
                  "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");
   app.option_defaults()->group("By which methods");
   app.add_option("--degree", texts.degree,
-                 fmt::format("1 to {}, or auto: of HYBRID's stresses, instead of --method and "
-                             "--adapt=...,by= (auto: 3 for goals below 0.1%, else 2)",
+                 fmt::format("1 to {}, or auto: of HYBRID's stresses, on the levels of --adapt and "
+                             "in cases (auto: 3 for goals below 0.1%, else 2)",
                              highest_degree));
   app.add_option(
       "--method", options.methods,
@@ -264,8 +264,13 @@ void read_degree(const std::string& text, bool is_given, Options& options) {
   } else {
     refuse("--degree", text, fmt::format("1 to {}, auto", highest_degree));
   }
-  options.adapt_by = hybrid_of_degree(degree);
-  if (!is_given) options.methods = options.adapt_by;
+  const std::string hybrid = hybrid_of_degree(degree);
+  if (options.adapt_by != "HYBRID" && options.adapt_by != hybrid)
+    refuse("--degree=" + text + " with --adapt=...,by", options.adapt_by,
+           "one of both, or by=" + hybrid);
+  options.degree = degree;
+  options.adapt_by = hybrid;
+  if (!is_given) options.methods = hybrid;
 }
 
 void read_fields(const std::string& text, Options& options) {

@@ -44,10 +44,12 @@ class Judge {
   // degree more than theirs, or of the stresses of adapt_by or, for another degree, HYBRID with
   // displacements recovered from them.
   enum class Bound { displacement, recovery };
-  struct Discretisation {  // of the last load step
+  struct Discretisation {
+    TotalError total;
+    // Of the last load step.
     ConstitutiveError error;
     DisplacementField u;
-    std::optional<ContactIntervals> intervals;  // for recovery, if the error is valid
+    std::optional<ContactIntervals> intervals;  // for recovery, if asked for and the error is valid
     Json of_steps = Json::array();              // merged into Record::steps
   };
 
@@ -72,13 +74,15 @@ class Judge {
   void judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,
                           const Solution& solution, Record& record);
 
-  std::optional<Bound> bound_for(const Method& method) const;
+  std::optional<Bound> bound_for(const Method& method) const;  // none: it has its own
+  bool wants_intervals(int degree) const;
   // Null: stresses or displacements are missing.
   const Discretisation* discretisation(Bound bound, int degree);
   std::optional<Discretisation> compute_discretisation(Bound bound, int degree);
   void judge_discretisation(const Method& method, const std::vector<JudgedStep>& steps,
                             const Solution& solution, Record& record);
   void note_discretisation(const Method& method, Record& record);
+  std::string prefix_of_largest(const Record& record) const;
   // For an external program: its displacements, made admissible.
   void note_error_of_displacement(const std::vector<JudgedStep>& steps, Record& record);
   // A path with friction in twice as many steps; null without such a path or a reference.

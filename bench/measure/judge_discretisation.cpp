@@ -16,11 +16,12 @@ namespace airybench {
 std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
   if (method.in_displacements && !method.program.empty()) return {};  // it has its own
   const bool of_accuracy = options_.study.points == Study::Points::accuracy;
-  if (method.in_displacements) return Bound::displacement;
-  if (method.degree > 1) return Bound::recovery;
-  if (of_accuracy) return Bound::displacement;
-  if (!options_.adapt.empty() || options_.fields || options_.study.bounds) return Bound::recovery;
-  return {};
+  return method.in_displacements || (of_accuracy && method.degree == 1) ? Bound::displacement
+                                                                        : Bound::recovery;
+}
+
+bool Judge::wants_intervals(int degree) const {
+  return degree > 1 || !options_.adapt.empty() || options_.fields || options_.study.bounds;
 }
 
 const Judge::Discretisation* Judge::discretisation(Bound bound, int degree) {
@@ -32,11 +33,17 @@ const Judge::Discretisation* Judge::discretisation(Bound bound, int degree) {
 
 namespace {
 
-Json shown(const ConstitutiveError& error) {
+Json bounds(const ConstitutiveError& error) {
   const auto or_null = [](bool is_there, double value) { return is_there ? Json(value) : Json(); };
-  return {{"error_discretisation", or_null(error.flaw.empty(), error.relative)},
-          {"lower_bound_Nmm", or_null(error.guaranteed, error.lower_bound_Nmm)},
+  return {{"lower_bound_Nmm", or_null(error.guaranteed, error.lower_bound_Nmm)},
           {"upper_bound_Nmm", or_null(error.guaranteed, error.upper_bound_Nmm)}};
+}
+
+void add_errors(const TotalError& total, Json& steps) {
+  for (int k = 0; k < total.steps(); ++k) {
+    const auto error = total.relative(k);
+    steps[static_cast<std::size_t>(k)]["error_discretisation"] = error ? Json(*error) : Json();
+  }
 }
 
 void add_intervals(const ContactIntervals& intervals, Json& step) {
@@ -105,15 +112,18 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
       result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
       result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
     }
-    result.of_steps.push_back(shown(result.error));
+    result.total.add(result.error, prefix_of(step));
+    result.of_steps.push_back(bounds(result.error));
     result.intervals.reset();
-    if (bound == Bound::displacement || !result.error.flaw.empty()) return;
+    if (bound == Bound::displacement || !result.error.flaw.empty() || !wants_intervals(degree))
+      return;
     if (!lifts) lifts = resultant_lifts(*problem_, degree);
     result.intervals =
         contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
     if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());
   });
-  if (std::ssize(result.of_steps) < count_of_steps(*problem_)) return {};
+  if (result.total.steps() < count_of_steps(*problem_)) return {};
+  add_errors(result.total, result.of_steps);
   return result;
 }
 
@@ -124,6 +134,7 @@ void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Rec
     return;
   }
   if (std::ssize(steps) < count_of_steps(*problem_)) return;
+  TotalError total;
   ConstitutiveError error;
   Json of_steps = Json::array();
   DualSystem system = assemble(problem_, Blocks::contact_points);
@@ -133,9 +144,11 @@ void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Rec
                          steps[static_cast<std::size_t>(step)].displacement;
                      error = constitutive_error(posed, own.stress, own.F_C,
                                                 admissible_displacement(posed, own.F_C, u));
-                     of_steps.push_back(shown(error));
+                     total.add(error, prefix_of(step));
+                     of_steps.push_back(bounds(error));
                    });
-  note(error, "its own displacements", record);
+  add_errors(total, of_steps);
+  note(total, error, "its own displacements", record);
   for (std::size_t k = 0; k < record.steps.size(); ++k) record.steps[k].update(of_steps[k]);
 }
 
@@ -145,7 +158,7 @@ void Judge::note_discretisation(const Method& method, Record& record) {
   if (record.other_solution) {
     record.no_discretisation_error = "it is known for the reference's solution only";
   } else if (known != nullptr) {
-    note(known->error,
+    note(known->total, known->error,
          *bound == Bound::displacement ? displacements_of_degree(method.degree + 1) : "recovery",
          record);
     if (known->intervals) note(*known->intervals, record);
@@ -172,17 +185,13 @@ const Json* Judge::half_steps(int degree) {
   return &found->second;
 }
 
-namespace {
-
-// What is left of a path's stresses is rounding: nothing is relative to it.
-bool is_unloaded(const std::vector<JudgedStep>& steps, const JudgedStep& step) {
-  constexpr double rounding = 1e-20;  // of energy
-  double largest = 0;
-  for (const JudgedStep& other : steps) largest = std::max(largest, other.seen().strain_energy_Nmm);
-  return steps.size() > 1 && step.seen().strain_energy_Nmm <= rounding * largest;
+// Of the step that has the record's total error.
+std::string Judge::prefix_of_largest(const Record& record) const {
+  const auto step = std::ranges::find_if(record.steps, [&](const Json& own) {
+    return number_at(own, "error_discretisation") == record.error_discretisation;
+  });
+  return step == record.steps.end() ? "" : prefix_of(step - record.steps.begin());
 }
-
-}  // namespace
 
 // An error of 100 % is not ok. Gives a reason if a displacement method has no error.
 void Judge::judge_discretisation(const Method& method, const std::vector<JudgedStep>& steps,
@@ -194,27 +203,13 @@ void Judge::judge_discretisation(const Method& method, const std::vector<JudgedS
   const Json* const halves = half_steps(method.degree);
   if (halves != nullptr) record.steps_in_halves = *halves;
   if (record.status != Status::ok) return;
-  const auto is_refused = [&](const std::optional<double>& error, const std::string& prefix) {
-    if (!is_all_error(error)) return false;
+  if (is_all_error(record.error_discretisation)) {
     record.status = Status::inaccurate;
     record.status_reason =
-        prefix + (std::isinf(*error) ? "it has stress, and the reference has none"
-                                     : fmt::format("its total error is {:.0f} %: nothing of it is "
-                                                   "known",
-                                                   100 * *error));
-    return true;
-  };
-  for (std::size_t k = 0; k + 1 < record.steps.size(); ++k)
-    if (!is_unloaded(steps, steps[k]) &&
-        is_refused(number_of_step(record.steps[k], "error_discretisation"),
-                   prefix_of(static_cast<std::int64_t>(k))))
-      return;
-  if (is_unloaded(steps, steps.back())) {
-    record.error_discretisation.reset();
-    record.error_mean.reset();
-    record.no_discretisation_error =
-        "the last load step has no stress that it could be relative to";
-  } else if (is_refused(record.error_discretisation, "")) {
+        std::isinf(*record.error_discretisation)
+            ? prefix_of_largest(record) + "it has stress, and the reference has none"
+            : fmt::format("{}its total error is {:.0f} %: nothing of it is known",
+                          prefix_of_largest(record), 100 * *record.error_discretisation);
     return;
   }
   if (method.in_displacements && !record.error_discretisation && record.status_reason.empty())

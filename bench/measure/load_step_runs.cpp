@@ -159,6 +159,7 @@ Json steps_of(const std::vector<JudgedStep>& steps) {
     const Verification& v = step.seen();
     list.push_back({{"claimed_status", name_of(step.claimed_status)},
                     {"error", worst_measure(v).value},
+                    {"error_stress", or_null(v.error_stress)},
                     {"normal_resultant_N", or_null(v.normal_resultant_N)},
                     {"tangential_resultant_N", or_null(v.tangential_resultant_N)},
                     {"n_open", or_null(v.n_open)},

@@ -242,18 +242,16 @@ void note_large_strains(const Problem& problem, const StressField& stress, Recor
         record);
 }
 
-void note(const ConstitutiveError& error, const std::string& by, Record& record) {
-  if (error.flaw.empty()) {
-    record.error_discretisation = error.relative;
-    record.discretisation_by = by;
-    if (is_verified(record))
-      record.error_mean = error.relative_of_mean + record.error_stress.value_or(0) / 2;
-  } else {
-    record.no_discretisation_error = error.flaw;
-  }
-  if (error.guaranteed) {
-    record.lower_bound_Nmm = error.lower_bound_Nmm;
-    record.upper_bound_Nmm = error.upper_bound_Nmm;
+void note(const TotalError& total, const ConstitutiveError& last, const std::string& by,
+          Record& record) {
+  record.error_discretisation = total.relative();
+  record.no_discretisation_error = total.flaw();
+  if (total.relative()) record.discretisation_by = by;
+  if (total.relative(total.steps() - 1) && is_verified(record))
+    record.error_mean = last.relative_of_mean + record.error_stress.value_or(0) / 2;
+  if (last.guaranteed) {
+    record.lower_bound_Nmm = last.lower_bound_Nmm;
+    record.upper_bound_Nmm = last.upper_bound_Nmm;
   }
 }
 

@@ -10,7 +10,7 @@
 #include "bench/measure/solve_watch.hpp"
 #include "bench/records/record.hpp"
 #include "bench/verify/contact_intervals.hpp"
-#include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/total_error.hpp"
 
 namespace airybench {
 
@@ -51,8 +51,10 @@ inline const char* obstacle_of(const Problem& problem) {
 }
 
 void note(const Solution& solution, Record& record);
-// Needs the verification. by: Record::discretisation_by, the source of the displacements.
-void note(const ConstitutiveError& error, const std::string& by, Record& record);
+// Needs the verification. last: of the last load step. by: Record::discretisation_by, the source of
+// the displacements.
+void note(const TotalError& total, const ConstitutiveError& last, const std::string& by,
+          Record& record);
 void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
 // "; the least gap to the wall is 0.012 mm", of the body as it is held, before it deforms; empty:

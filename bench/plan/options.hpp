@@ -64,6 +64,7 @@ struct Options {
   std::vector<AdaptGoal> adapt;                    // adapt the meshes until each of these in turn
   std::optional<double> marking;    // bulk marking: share of the squared error, per level
   std::string adapt_by = "HYBRID";  // method that solves the levels
+  std::optional<int> degree;        // --degree: of HYBRID's stresses, on the levels and in cases
   bool goals_only = false;          // make cases only of levels that reach a goal
   bool fields = false;              // write stresses, displacements, contact points …
   bool mean_fields = false;         // … and their mean with the stresses of displacements

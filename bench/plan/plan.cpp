@@ -137,6 +137,7 @@ void identify(const Case& planned, Record& record) {
     record.adapt_time_s = adapted->time_s;
     record.adapt_estimate_share = adapted->estimate_share;
     record.smallest_angle_deg = adapted->smallest_angle_deg;
+    record.adapt_goal = adapted->goal;
   }
   record.case_number = planned.number;
   record.knob = planned.knob.name;

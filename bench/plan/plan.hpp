@@ -20,6 +20,7 @@ struct AdaptedMesh {
   double time_s = 0;          // of the loop, up to this level
   double estimate_share = 0;  // of error estimates in time_s
   double smallest_angle_deg = 0;
+  std::optional<double> goal = {};  // the total error that it meets
 };
 
 using PosedProblem =

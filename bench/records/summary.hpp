@@ -16,14 +16,15 @@ std::string outcome_of(const Record& record);
 bool times_tie(const Record& a, const Record& b);
 inline constexpr int fewest_to_tell_apart =
     5;  // two samples of five differ at p < 0.01, of four never
-// Of an element of Record::steps; empty: it has none.
-std::optional<double> number_of_step(const Json& step, const char* key);
-// error_total, of a path of load steps the largest of its steps'.
-std::optional<double> worst_error_total(const Record& record);
+// A number of an object, as those of Record::steps; empty: it has none.
+std::optional<double> number_at(const Json& step, const char* key);
 // A total error of 100 % and more. Where bodies miss each other on the mesh it is 1 up to rounding.
 inline bool is_all_error(const std::optional<double>& error) {
   return error && !(*error < 1 - 1e-9);  // NaN: nothing is known
 }
+
+// Its mesh was adapted to a total error below its own.
+bool misses_goal(const Record& record);
 
 bool has_few_samples(const Record& record);
 

@@ -12,6 +12,7 @@
 #include "bench/plan/mesh_files.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/json.hpp"
+#include "bench/records/summary.hpp"
 #include "bench/run/adaptive_loop.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "mesh/msh_format.hpp"
@@ -105,10 +106,15 @@ Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
                                 level.number, degree > 1 ? fmt::format("k{}", degree) : "");
   const std::filesystem::path file = folder / (level.mesh.name + ".msh");
   write_for_records(file, msh_text(level.mesh), options);
-  return {{"file", file.string()},         {"number", level.number},
-          {"unknowns", level.unknowns},    {"error", level.error ? Json(*level.error) : Json()},
-          {"reaches", level.reaches_goal}, {"angle", level.smallest_angle_deg},
-          {"time_s", level.time_s},        {"estimate_s", level.estimate_s}};
+  return {{"file", file.string()},
+          {"number", level.number},
+          {"unknowns", level.unknowns},
+          {"error", level.error ? Json(*level.error) : Json()},
+          {"reaches", level.goal.has_value()},
+          {"angle", level.smallest_angle_deg},
+          {"goal", level.goal && level.goal->error ? Json(*level.goal->error) : Json()},
+          {"time_s", level.time_s},
+          {"estimate_s", level.estimate_s}};
 }
 
 void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Options& options,
@@ -153,8 +159,9 @@ PosedScene posed_level(const Json& said, const Scene& scene, const std::string& 
           .mesh_sha256 = file.sha256,
           .scene_definition = definition,
           .problem = std::make_shared<const Problem>(pose(scene, file.mesh)),
-          .adapted = AdaptedMesh{said.at("number"), time_s,
-                                 said.at("estimate_s").get<double>() / time_s, said.at("angle")}};
+          .adapted =
+              AdaptedMesh{said.at("number"), time_s, said.at("estimate_s").get<double>() / time_s,
+                          said.at("angle"), number_at(said, "goal")}};
 }
 
 void print(const Json& said, const std::string& name) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "assembly/matched_faces.hpp"
 #include "bench/measure/heap_probe.hpp"
@@ -45,20 +46,6 @@ std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
 
 }  // namespace
 
-void AdaptiveLoop::StepErrors::add(const ConstitutiveError& error, const std::string& prefix) {
-  if (flaw.empty() && !error.flaw.empty()) flaw = prefix + error.flaw;
-  of_triangle_Nmm.resize(error.of_triangle_Nmm.size());
-  for (std::size_t t = 0; t < of_triangle_Nmm.size(); ++t)
-    of_triangle_Nmm[t] += error.of_triangle_Nmm[t];
-  const double squared = std::max(0.0, error.squared_Nmm());
-  squared_Nmm += squared;
-  if (error.relative > 0) of_stress_Nmm += squared / (error.relative * error.relative);
-}
-
-double AdaptiveLoop::StepErrors::relative() const {
-  return of_stress_Nmm > 0 ? std::sqrt(squared_Nmm / of_stress_Nmm) : 0;
-}
-
 AdaptiveLoop::AdaptiveLoop(Scene scene, Mesh mesh, Method method, AdaptiveSettings settings)
     : scene_(std::move(scene)),
       mesh_(std::move(mesh)),
@@ -78,12 +65,12 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   std::optional<heap::Limit> limit;
   if (settings_.memory_limit_bytes)
     limit.emplace(heap::live_bytes() + *settings_.memory_limit_bytes);
-  StepErrors errors;
+  TotalError error;
   solve_load_steps(method_.solve, system, control,
                    [&](int step, const DualSystem& posed, const Solution& answer) {
                      limit.reset();
                      judge_step(step_prefix(static_cast<std::size_t>(step), *problem), posed,
-                                answer, errors);
+                                answer, error);
                    });
   limit.reset();
   if (!ended_.empty()) return {};
@@ -95,22 +82,20 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   level.smallest_angle_deg = mesh_quality(mesh_).smallest_angle_deg;
   level.time_s = time_s_;
   level.estimate_s = estimate_s_;
-  if (errors.flaw.empty())
-    level.error = errors.relative();
-  else
-    ended_ = "nothing can be said of the error: " + errors.flaw;
-  squared_Nmm_ = errors.squared_Nmm;
-  parts_Nmm_ = std::move(errors.of_triangle_Nmm);
+  level.error = error.relative();
+  if (!error.flaw().empty()) ended_ = "nothing can be said of the error: " + error.flaw();
+  parts_ = error.parts();
+  squared_ = std::accumulate(parts_.begin(), parts_.end(), 0.0);
   edges_ = problem->edges;
   if (expected_.squared > 0)
     more_squared_ = std::sqrt(  // most of what was missed was seen on the way
-        std::clamp(squared_Nmm_ / expected_.squared, 1 / most_correction, most_correction));
+        std::clamp(squared_ / expected_.squared, 1 / most_correction, most_correction));
   judge_progress(level);
   return level;
 }
 
 void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& system,
-                              const Solution& solution, StepErrors& errors) {
+                              const Solution& solution, TotalError& error) {
   if (solution.status != Status::ok) {
     ended_ = fmt::format("{} on {} unknowns: {}{}: {}", method_.name, mesh_sizes(mesh_).n_phi,
                          prefix, name_of(solution.status), solution.message);
@@ -122,7 +107,7 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& syste
   const auto estimating = std::chrono::steady_clock::now();
   const DisplacementField w =
       recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
-  errors.add(constitutive_error(system, solution.stress, solution.F_C, w), prefix);
+  error.add(constitutive_error(system, solution.stress, solution.F_C, w), prefix);
   estimate_s_ += seconds_since(estimating);
 }
 
@@ -133,7 +118,7 @@ void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {
   const auto is_met = [&](const AdaptGoal& goal) {
     return goal.error ? *level.error <= *goal.error : level.unknowns >= *goal.unknowns;
   };
-  for (; !reached() && is_met(settings_.goals[goal_]); ++goal_) level.reaches_goal = true;
+  for (; !reached() && is_met(settings_.goals[goal_]); ++goal_) level.goal = settings_.goals[goal_];
   history_.emplace_back(level.unknowns, *level.error);
   if (!reached() && *level.error == 0) ended_ = "the error is zero: there is nothing to refine";
   for (const auto& [unknowns, before] : history_)
@@ -150,9 +135,9 @@ BisectedMesh AdaptiveLoop::marked_and_bisected() const {
   const double needed =
       goal.error ? margin * unknowns * std::pow(error / *goal.error, rate) : *goal.unknowns;
   double marking = *settings_.marking;
-  BisectedMesh finer = bisected(mesh_, cuts_of(parts_Nmm_, marking));
+  BisectedMesh finer = bisected(mesh_, cuts_of(parts_, marking));
   while (mesh_sizes(finer.mesh).n_phi > needed && marking > least_marking) {
-    BisectedMesh smaller = bisected(mesh_, cuts_of(parts_Nmm_, marking *= step));
+    BisectedMesh smaller = bisected(mesh_, cuts_of(parts_, marking *= step));
     if (mesh_sizes(smaller.mesh).n_phi < needed) break;
     finer = std::move(smaller);
   }
@@ -165,7 +150,7 @@ BisectedMesh AdaptiveLoop::bisected_as_expected() {
   constexpr double aim = 0.96;  // of the goal: a near miss costs one more level
   using Finer = ExpectedParts::Finer;
   const AdaptGoal& goal = settings_.goals[goal_];
-  const ExpectedParts expected(mesh_, edges_, parts_Nmm_, method_.degree);
+  const ExpectedParts expected(mesh_, edges_, parts_, method_.degree);
   const auto triangles = static_cast<double>(mesh_.triangles.size());
   const auto& [unknowns, error] = history_.back();
   const auto with_neighbours = [&](const Finer& finer) {
@@ -178,7 +163,7 @@ BisectedMesh AdaptiveLoop::bisected_as_expected() {
     return expected.cut_until([&](const Finer& finer) { return is_enough(finer, count); });
   };
   if (goal.error) {
-    const double left = std::pow(aim * *goal.error / error, 2) * squared_Nmm_;
+    const double left = std::pow(aim * *goal.error / error, 2) * squared_;
     expected_ = expected.cut_until([&](const Finer& finer) {
       return is_enough(finer, least_growth * triangles) &&
              (more_squared_ * finer.squared <= left || finer.triangles > most_triangles);

@@ -20,8 +20,8 @@
 
 #include "assembly/scene.hpp"
 #include "bench/plan/options.hpp"
-#include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/expected_parts.hpp"
+#include "bench/verify/total_error.hpp"
 #include "solvers/methods.hpp"
 
 namespace airybench {
@@ -37,11 +37,10 @@ struct AdaptiveSettings {
 
 struct AdaptiveLevel {
   Mesh mesh;
-  int number = 0;    // 0: the initial mesh
-  int unknowns = 0;  // n_φ
-  // e / ‖σ‖, for load steps √(Σ e² / Σ ‖σ‖²); empty if no estimate is valid: see why_ended().
-  std::optional<double> error;
-  bool reaches_goal = false;  // one that no earlier level reached
+  int number = 0;                 // 0: the initial mesh
+  int unknowns = 0;               // n_φ
+  std::optional<double> error;    // TotalError::relative(); empty: see why_ended()
+  std::optional<AdaptGoal> goal;  // the last that it, and no earlier level, reaches
   double smallest_angle_deg = 0;
   double time_s = 0, estimate_s = 0;  // summed over all levels so far; time_s includes estimate_s
 };
@@ -58,16 +57,8 @@ class AdaptiveLoop {
   const std::string& why_ended() const { return ended_; }  // if not all are reached; else empty
 
  private:
-  // Sums of e² and ‖σ‖² over all load steps; marking uses the first.
-  struct StepErrors {
-    std::vector<double> of_triangle_Nmm;
-    double squared_Nmm = 0, of_stress_Nmm = 0;
-    std::string flaw;
-    void add(const ConstitutiveError& error, const std::string& prefix);
-    double relative() const;
-  };
   void judge_step(const std::string& prefix, const DualSystem& system, const Solution& solution,
-                  StepErrors& errors);
+                  TotalError& error);
   bool refine();
   BisectedMesh marked_and_bisected() const;
   BisectedMesh bisected_as_expected();
@@ -78,9 +69,9 @@ class AdaptiveLoop {
   Mesh mesh_;
   Method method_;
   AdaptiveSettings settings_;
-  std::vector<double> parts_Nmm_;  // parts of e², per triangle
+  std::vector<double> parts_;  // of the squared error, per triangle
   MeshEdges edges_;
-  double squared_Nmm_ = 0;  // e²
+  double squared_ = 0;  // their sum
   // The last refinement: the uncorrected expectation, and the ratios of actual to expected.
   ExpectedParts::Finer expected_;
   double more_triangles_ = 1.2, more_squared_ = 1;

@@ -1,0 +1,39 @@
+#include "bench/verify/total_error.hpp"
+
+#include <algorithm>
+
+#include "assembly/load_scale.hpp"
+
+namespace airybench {
+
+constexpr double rounding = 1e-10;  // of ‖σ‖
+
+void TotalError::add(const ConstitutiveError& error, const std::string& step) {
+  if (flaw_.empty() && !error.flaw.empty()) flaw_ = step + error.flaw;
+  of_step_.push_back(
+      {error.norm, error.flaw.empty() ? std::optional(error.relative) : std::nullopt});
+  largest_norm_ = std::max(largest_norm_, error.norm);
+  parts_.resize(error.of_triangle_Nmm.size());
+  const double squared = error.squared_Nmm();
+  if (!(squared > 0) || is_unloaded(steps() - 1)) return;
+  const double scale = error.relative * error.relative / squared;
+  for (std::size_t t = 0; t < parts_.size(); ++t) parts_[t] += scale * error.of_triangle_Nmm[t];
+}
+
+bool TotalError::is_unloaded(int step) const {
+  return steps() > 1 && of_step_[static_cast<std::size_t>(step)].norm < rounding * largest_norm_;
+}
+
+std::optional<double> TotalError::relative(int step) const {
+  return is_unloaded(step) ? std::nullopt : of_step_[static_cast<std::size_t>(step)].relative;
+}
+
+std::optional<double> TotalError::relative() const {
+  if (!flaw_.empty()) return {};
+  std::optional<double> largest;
+  for (int k = 0; k < steps(); ++k)
+    if (const auto own = relative(k)) largest = largest ? larger_error(*largest, *own) : *own;
+  return largest;
+}
+
+}  // namespace airybench

@@ -1,0 +1,42 @@
+// The total error of a path of load steps: of every step the constitutive relation error relative
+// to that step's own stresses (discretisation_error.hpp), of the path the largest. A case without
+// load steps is a path of one. Records, tables, the adaptive loop and exit codes have this number.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/verify/discretisation_error.hpp"
+
+namespace airybench {
+
+class TotalError {
+ public:
+  // step: "load step 2 of 3: ", for flaw().
+  void add(const ConstitutiveError& error, const std::string& step);
+
+  int steps() const { return static_cast<int>(of_step_.size()); }
+  // A step whose stresses are rounding next to those of others: nothing is relative to them.
+  bool is_unloaded(int step) const;
+  // e / ‖σ‖; empty: the step is unloaded, or its fields are not admissible.
+  std::optional<double> relative(int step) const;
+  // The largest of all steps; empty: a step has a flaw, or none has stress.
+  std::optional<double> relative() const;
+  const std::string& flaw() const { return flaw_; }  // the first; empty: none
+
+  // Per triangle Σ e_T² / ‖σ‖² over the steps, what refinement is to lower.
+  const std::vector<double>& parts() const { return parts_; }
+
+ private:
+  struct Step {
+    double norm;  // ‖σ‖, √(N mm)
+    std::optional<double> relative;
+  };
+  std::vector<Step> of_step_;
+  std::vector<double> parts_;
+  double largest_norm_ = 0;
+  std::string flaw_;
+};
+
+}  // namespace airybench
