@@ -119,23 +119,27 @@ class Places {
 
   const std::vector<int>& point_of_row() const { return point_of_row_; }
 
-  // Those in contact: with more pressure than this beside them.
+  // Those in contact: with more pressure than this.
   std::vector<Place> on(const Face& face, double open_MPa) const {
     const std::vector<Face::Edge>& edges = face.edges();
-    const auto presses = [&](const Face::Edge& e) { return e.pressure.maxCoeff() > open_MPa; };
+    const auto starting = [](const Face::Edge& e) { return e.pressure(0); };
+    const auto ending = [](const Face::Edge& e) { return e.pressure(e.pressure.size() - 1); };
     std::vector<Place> places;
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const Face::Edge& e = edges[k];
-      if (presses(e) && is_uneven(e)) places.push_back({e.start + e.length / 2, e.length});
+      if (e.pressure.maxCoeff() > open_MPa && is_uneven(e))
+        places.push_back({e.start + e.length / 2, e.length});
       if (k == 0 && !face.is_closed()) continue;
       const Face::Edge& before = k == 0 ? edges.back() : edges[k - 1];
-      if ((presses(e) || presses(before)) && !is_smooth(before, e))
+      const double at_vertex = std::max(starting(e), ending(before));
+      if (at_vertex > open_MPa && !is_smooth(before, e))
         places.push_back({e.start, std::min(e.length, before.length)});
     }
     if (face.is_closed()) return places;
     const Face::Edge &first = edges.front(), &last = edges.back();
-    if (presses(first) && !is_regular_end(first.row, 0)) places.push_back({0, first.length});
-    if (presses(last) && !is_regular_end(last.row, 1))
+    if (starting(first) > open_MPa && !is_regular_end(first.row, 0))
+      places.push_back({0, first.length});
+    if (ending(last) > open_MPa && !is_regular_end(last.row, 1))
       places.push_back({last.start + last.length, last.length});
     return places;
   }
