@@ -11,12 +11,10 @@
 namespace airybench {
 namespace {
 
-// Where one node of a pair is prescribed, the other presses on it as on a wall that moves. Where a
-// roller holds one along the face, there is no friction.
+// Where one node of a pair is prescribed, the other presses on it as on a wall that moves.
 template <int p>
 void pair_points(const Problem& problem, const PrescribedDisplacement& prescribed,
-                 ControlPoints& points, std::vector<double>& friction,
-                 std::vector<ContactOffset>& offset) {
+                 ControlPoints& points, std::vector<ContactOffset>& offset) {
   std::map<int, int> point_of_node;
   for (int i = 0; i < points.law.count; ++i) point_of_node[points.node[i]] = i;
   points.law.opposite.assign(static_cast<std::size_t>(points.law.count), ContactPoints::no_point);
@@ -35,16 +33,11 @@ void pair_points(const Problem& problem, const PrescribedDisplacement& prescribe
       const int point = one->second;
       if (two != point_of_node.end()) {
         points.law.opposite[point] = two->second;
-        if (points.on_roller[point] || points.on_roller[two->second])
-          friction[point] = friction[two->second] = 0;
       } else if (prescribed.at[across]) {
         const Eigen::Vector2d moved = prescribed.u.col(across) + beyond.motion_mm;
         offset[point].gap_mm = own[point].gap_mm + beyond.gap_mm + points.normal[point].dot(moved);
-        if (points.on_roller[point])
-          friction[point] = 0;
-        else
-          offset[point].slid_mm =
-              own[point].slid_mm + beyond.slid_mm + points.frame(point).col(1).dot(moved);
+        offset[point].slid_mm =
+            own[point].slid_mm + beyond.slid_mm + points.frame(point).col(1).dot(moved);
       }
     }
   }
@@ -58,6 +51,18 @@ Eigen::Vector2d place_of_node(const Problem& problem, const ControlPoints& point
   const auto [start, end] = problem.mesh.boundary[row].vertices;
   const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
   return a + static_cast<double>(i) / p * (b - a);
+}
+
+// Of a node that moves along `free` only, from u = held on: how far to the wall, and minus the slip
+// when it is there, which friction opposes.
+ContactOffset offset_on_roller(const ContactOffset& own, const EdgeFrame& face,
+                               const Eigen::Vector2d& held, const Eigen::Vector2d& free) {
+  constexpr double rounding = 1e-12;
+  const Eigen::Vector2d moved = held + own.motion_mm;
+  const double gap_mm = (own.gap_mm - face.normal.dot(moved)) / face.normal.dot(free),
+               slip_mm = face.tangent.dot(moved + gap_mm * free) - own.slid_mm;
+  const bool rests = std::abs(slip_mm) <= rounding * (held.norm() + own.motion_mm.norm());
+  return {.gap_mm = gap_mm, .slid_mm = rests ? 0 : -slip_mm};
 }
 
 template <int p>
@@ -85,16 +90,17 @@ ControlPoints control_points(const Problem& problem) {
     const std::array<ContactOffset, p + 1> offsets = offset_coefficients<p>(problem, row);
     for (int k = 0; k <= p; ++k) {
       if (prescribed->at[nodes[k]]) continue;
-      const Eigen::Vector2d normal = frame_of_coefficient<p>(problem, row, k).normal;
+      const EdgeFrame frame = frame_of_coefficient<p>(problem, row, k);
+      const Eigen::Vector2d& normal = frame.normal;
       if (const auto roller = prescribed->normal.find(nodes[k]);
           roller != prescribed->normal.end()) {
         const Eigen::Vector2d& m = roller->second;
         const Eigen::Vector2d along(-m.y(), m.x());
         const double cosine = normal.dot(along);
         if (std::abs(cosine) < straight_roller) continue;  // parallel: the roller holds u_n
-        const Eigen::Vector2d held = prescribed->u.col(nodes[k]) + offsets[k].motion_mm;
-        add(nodes[k], cosine > 0 ? along : Eigen::Vector2d(-along), true, row,
-            {.gap_mm = (offsets[k].gap_mm - normal.dot(held)) / std::abs(cosine)});
+        const Eigen::Vector2d free = cosine > 0 ? along : Eigen::Vector2d(-along);
+        add(nodes[k], free, true, row,
+            offset_on_roller(offsets[k], frame, prescribed->u.col(nodes[k]), free));
         continue;
       }
       const auto [found, is_new] =
@@ -110,7 +116,7 @@ ControlPoints control_points(const Problem& problem) {
     }
   }
   points.law.count = static_cast<int>(points.node.size());
-  if (!problem.opposite.empty()) pair_points<p>(problem, *prescribed, points, friction, offset);
+  if (!problem.opposite.empty()) pair_points<p>(problem, *prescribed, points, offset);
   if (points.law.components == 2) points.law.friction = std::move(friction);
   if (problem.has_gap() || std::ranges::any_of(offset, [](const ContactOffset& own) {
         return own.gap_mm != 0 || own.slid_mm != 0;
@@ -145,6 +151,22 @@ Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementF
   return of_points;
 }
 
+namespace {
+
+// Of the point across where that one is free to slip, else by Coulomb's law against the known slip.
+double friction_on_roller(const ControlPoints& points, const Eigen::VectorXd& F, int point) {
+  const int across = points.law.opposite_of(point);
+  const bool is_alone = across == ContactPoints::no_point;
+  if (!is_alone && !points.on_roller[across]) return F(2 * across + 1);
+  if (points.law.gap.size() == 0) return 0;
+  const double slip_mm =
+      -points.law.gap(2 * point + 1) - (is_alone ? 0 : points.law.gap(2 * across + 1));
+  if (slip_mm == 0) return 0;
+  return std::copysign(points.law.friction_at(point) * std::max(0.0, -F(2 * point)), -slip_mm);
+}
+
+}  // namespace
+
 Eigen::VectorXd contact_reactions(const Problem& problem, const ControlPoints& points,
                                   const StressField& stress) {
   const Eigen::Matrix2Xd force =
@@ -153,8 +175,9 @@ Eigen::VectorXd contact_reactions(const Problem& problem, const ControlPoints& p
   Eigen::VectorXd F(points.law.size());
   for (int p = 0; p < points.law.count; ++p) {
     F.segment(m * p, m) = (points.frame(p).transpose() * force.col(points.node[p])).head(m);
-    if (m == 2 && points.on_roller[p]) F(2 * p + 1) = 0;
   }
+  for (int p = 0; p < points.law.count; ++p)  // of the nodal force the roller has an unknown part
+    if (m == 2 && points.on_roller[p]) F(2 * p + 1) = friction_on_roller(points, F, p);
   return F;
 }
 

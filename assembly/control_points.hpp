@@ -8,7 +8,8 @@
 // A vertex between two contact edges has one normal, their mean. Then u_n ≤ g0 is no longer strict
 // on a face that is not straight. A vertex on Γ_D is prescribed and has no law. Where a roller of
 // normal m meets Γ_C, u = d m + a t moves along t ⊥ m only: the law's normal is ±t with n·t > 0,
-// u_n ≤ g0 becomes ±a ≤ (g0 − d n·m)/|n·t|, and the tangential force is zero.
+// and u_n ≤ g0 becomes ±a ≤ (g0 − d n·m)/|n·t|. Its slip in contact is known, and Coulomb's law
+// gives the friction against it, which the roller bears.
 #pragma once
 
 #include "assembly/displacement_field.hpp"
@@ -28,7 +29,7 @@ struct ControlPoints {
                           // edges the smaller g0 and the smaller μ
   std::vector<int> node;  // per point
   std::vector<Eigen::Vector2d> normal;  // outward unit vector; tangent: (−n_y, n_x)
-  std::vector<bool> on_roller;          // u along the tangent is prescribed
+  std::vector<bool> on_roller;          // u along the tangent is prescribed: minus it is in law.gap
 
   Eigen::Matrix2d frame(int point) const { return normal_frame(normal[point]); }
 };

@@ -228,7 +228,11 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
     fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
-    if (options_.mean_fields) fields.mean = mean_stress(*problem_, solution.stress, known->u);
+    if (options_.mean_fields)
+      fields.mean = mean_stress(
+          *problem_,
+          method.in_displacements ? references(method.degree).steps.back().stress : solution.stress,
+          known->u);
   }
   write_fields(file.parent_path(), file.filename(), fields);
 }

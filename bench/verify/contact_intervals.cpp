@@ -91,6 +91,7 @@ std::optional<Bracket> resultant(const Problem& problem, const StressField& mean
 
 struct LargestPressure {
   double pressure_MPa = -std::numeric_limits<double>::infinity();
+  double of_edge_MPa = pressure_MPa;  // the largest mean over an edge
   int triangle = 0;
   Eigen::Vector2d normal = {0, 0};
 };
@@ -109,124 +110,46 @@ LargestPressure largest_pressure(const Problem& problem, const StressField& stre
       const AlongEdge pressure = -(stress.degree() + 1) / frame.length_mm *
                                  frame.normal.transpose() *
                                  element_edge_forces(problem.vertices_of(t), stress[t], k);
+      peak.of_edge_MPa = std::max(peak.of_edge_MPa, pressure.mean());
       const double largest = largest_value(pressure, {peak.pressure_MPa}).value;
-      if (largest > peak.pressure_MPa) peak = {largest, t, frame.normal};
+      if (largest > peak.pressure_MPa) {
+        peak.pressure_MPa = largest;
+        peak.triangle = t;
+        peak.normal = frame.normal;
+      }
     }
   return peak;
+}
+
+// A contact face of edges that are not parallel.
+bool has_polygon(const Mesh& mesh) {
+  for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact))
+    for (const int row : rows)
+      if ((frame_of(mesh, row).normal - frame_of(mesh, rows.front()).normal).norm() >
+          straight_roller)
+        return true;
+  return false;
 }
 
 void set_largest_pressure(const Problem& problem, const StressField& stress,
                           const DisplacementField& u, const ConstitutiveError& error,
                           ContactIntervals& result) {
+  constexpr double safety = 2, useful = 0.5;
   const LargestPressure of_stress = largest_pressure(problem, stress);
-  result.largest_pressure_MPa = of_stress.pressure_MPa;
-  if (result.peak != ContactIntervals::Peak::bounded) return;
-  const LargestPressure of_u = largest_pressure(problem, stress_of_displacement(problem, u));
+  const double p = result.largest_pressure_MPa = of_stress.pressure_MPa;
+  if (result.peak != PressurePeak::bounded) return;
+  const double of_u = largest_pressure(problem, stress_of_displacement(problem, u)).pressure_MPa;
   const int t = of_stress.triangle;
   const Eigen::Vector2d& n = of_stress.normal;
   const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // n⊗n as a strain
   const double stiffness_MPa = nn.dot(elasticity_of(problem.compliance_of(t)) * nn),
                own = std::sqrt(std::max(0.0, error.of_triangle_Nmm[t]) * stiffness_MPa /
                                problem.area_mm2(t)),
-               from_afar = of_stress.pressure_MPa * error.relative * error.relative,
-               delta = own + std::max(0.0, from_afar);
-  const auto [low, high] = std::minmax(of_stress.pressure_MPa, of_u.pressure_MPa);
-  result.largest_pressure_within_MPa = Bracket{std::max(0.0, low - delta), high + delta};
-}
-
-class PressureAlongFace {
- public:
-  PressureAlongFace(const DualSystem& system, const Eigen::VectorXd& F_C,
-                    const std::vector<int>& rows, const std::vector<int>& point_of_row) {
-    const Mesh& mesh = system.problem->mesh;
-    const bool is_closed =
-        mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
-    for (int turn = 0; turn < (is_closed ? 3 : 1); ++turn)  // repeats before and after
-      for (const int row : rows) {
-        const double length = frame_of(mesh, row).length_mm;
-        const int m = system.contact.components, n = system.contact.per_edge;
-        const Eigen::VectorXd force = F_C(Eigen::seqN(m * point_of_row[row], n, m));
-        edges_.push_back({end_, length, AlongEdge(-n / length * force.transpose())});
-        end_ += length;
-      }
-    const std::size_t count = rows.size(), first = is_closed ? count : 0;
-    for (std::size_t k = first; k < first + count; ++k)
-      if (const LargestValue largest = largest_value(edges_[k].pressure, {highest_});
-          largest.value > highest_) {
-        highest_ = largest.value;
-        place_ = edges_[k].start + largest.s * edges_[k].length;
-        at_ = k;
-      }
-  }
-
-  double highest() const { return highest_; }
-
-  ContactIntervals::Peak peak() const {
-    using enum ContactIntervals::Peak;
-    constexpr double slower = 0.8;     // ratio of growths; a √x cusp has 0.7
-    constexpr double smallest = 0.01;  // share of the mean; less is noise
-    const double unit = edges_[at_].length, closed = closed_length();
-    const auto mean = [&](int k) { return mean_within(std::ldexp(unit, k)); };
-    if (closed < 4 * unit) return not_seen;
-    const double last = mean(0) - mean(1), before = mean(1) - mean(2), first = mean(2) - mean(3);
-    if (last <= smallest * mean(0) || last <= slower * before) return bounded;
-    if (closed < 8 * unit) return not_seen;
-    return before > slower * first ? unbounded : bounded;
-  }
-
- private:
-  struct Edge {
-    double start, length;
-    AlongEdge pressure;
-  };
-
-  // Of the edges with pressure around the peak: beyond, a window's mean falls for want of pressure.
-  double closed_length() const {
-    const auto is_closed = [&](std::size_t k) {
-      return k < edges_.size() && edges_[k].pressure.maxCoeff() > 1e-9 * highest_;
-    };
-    std::size_t first = at_, last = at_;
-    while (is_closed(first - 1)) --first;
-    while (is_closed(last + 1)) ++last;
-    return edges_[last].start + edges_[last].length - edges_[first].start;
-  }
-
-  double mean_within(double reach) const {
-    const double from = std::max(0.0, place_ - reach), to = std::min(end_, place_ + reach);
-    double sum = 0;
-    for (const Edge& e : edges_) {
-      const double a = std::max(from, e.start), b = std::min(to, e.start + e.length);
-      if (!(a < b)) continue;
-      const Eigen::Index n = e.pressure.size();
-      Eigen::RowVectorXd integral = Eigen::RowVectorXd::Zero(n + 1);
-      for (Eigen::Index i = 0; i < n; ++i)
-        integral(i + 1) = integral(i) + e.pressure(i) / static_cast<double>(n);
-      sum += e.length * (bernstein_value(integral, (b - e.start) / e.length) -
-                         bernstein_value(integral, (a - e.start) / e.length));
-    }
-    return sum / (to - from);
-  }
-
-  std::vector<Edge> edges_;
-  double end_ = 0, highest_ = 0, place_ = 0;
-  std::size_t at_ = 0;  // the peak's edge
-};
-
-ContactIntervals::Peak kind_of_peak(const DualSystem& system, const Eigen::VectorXd& F_C) {
-  const Mesh& mesh = system.problem->mesh;
-  std::vector<int> point_of_row(mesh.boundary.size(), 0);
-  for (int p = 0; p < system.contact.count; p += system.contact.per_edge)
-    point_of_row[system.contact.boundary[p]] = p;
-  double highest = 0;
-  ContactIntervals::Peak peak = ContactIntervals::Peak::bounded;  // also without pressure
-  for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact)) {
-    const PressureAlongFace face(system, F_C, rows, point_of_row);
-    if (face.highest() > highest) {
-      highest = face.highest();
-      peak = face.peak();
-    }
-  }
-  return peak;
+               from_afar = std::max(0.0, p) * error.relative * error.relative,
+               delta = safety * (std::abs(p - of_u) + own + from_afar),
+               least = has_polygon(problem.mesh) ? of_stress.of_edge_MPa : p;
+  if (delta <= useful * p)
+    result.largest_pressure_within_MPa = Bracket{std::max(0.0, least - delta), p + delta};
 }
 
 // rows: of Mesh::boundary, in walking order. of_row: the states of their points, n per edge.
@@ -316,7 +239,7 @@ std::optional<ContactIntervals> contact_intervals(
     result.normal_resultant_N = resultant(problem, mean, of_mean, lifts.normal);
     result.tangential_resultant_N = resultant(problem, mean, of_mean, lifts.tangential);
   }
-  result.peak = kind_of_peak(system, F_C);
+  result.peak = pressure_peak(system, F_C);
   set_largest_pressure(problem, stress, u, error, result);
   result.ends = contact_ends(system, F_C);
   return result;

@@ -93,19 +93,6 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
   return terms;
 }
 
-void judge_admissibility(const Eigen::VectorXd& F_C, const DisplacementField& u, double highest_gap,
-                         double highest_force, ConstitutiveError& error) {
-  constexpr double rounding = 1e-9;
-  if (!u.allFinite() || !std::isfinite(error.squared_Nmm()))
-    error.flaw = "stresses or displacements are not finite";
-  else if (highest_gap > rounding * u.lpNorm<Eigen::Infinity>())
-    error.flaw = fmt::format("the displacements go {:.1e} mm through the wall", highest_gap);
-  else if (highest_force > rounding * F_C.lpNorm<Eigen::Infinity>())
-    error.flaw = fmt::format("the contact forces pull with {:.1e} N", highest_force);
-  else if (error.squared_Nmm() < -rounding * error.body_Nmm)
-    error.flaw = fmt::format("e² is {:.1e} N mm", error.squared_Nmm());
-}
-
 // Energies: strain energies, N mm.
 struct Fields {
   const StressField& stress;
@@ -113,6 +100,22 @@ struct Fields {
   const DisplacementField& u;
   double energy, energy_of_u;
 };
+
+// The terms on Γ_C are of first order in the rounding of the contact law.
+void judge_admissibility(const Fields& fields, double highest_gap, double highest_force,
+                         ConstitutiveError& error) {
+  constexpr double rounding = 1e-9, of_law = 1e-11;
+  const auto& [stress, F_C, u, energy, energy_of_u] = fields;
+  if (!u.allFinite() || !std::isfinite(error.squared_Nmm()))
+    error.flaw = "stresses or displacements are not finite";
+  else if (highest_gap > rounding * u.lpNorm<Eigen::Infinity>())
+    error.flaw = fmt::format("the displacements go {:.1e} mm through the wall", highest_gap);
+  else if (highest_force > rounding * F_C.lpNorm<Eigen::Infinity>())
+    error.flaw = fmt::format("the contact forces pull with {:.1e} N", highest_force);
+  else if (error.squared_Nmm() <
+           -std::max(rounding * error.body_Nmm, of_law * (energy + energy_of_u)))
+    error.flaw = fmt::format("e² is {:.1e} N mm", error.squared_Nmm());
+}
 
 // The allowance covers rounding and the remaining violation of the inequalities.
 template <int k>
@@ -207,14 +210,14 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
     highest_gap = std::max(highest_gap, terms.highest_gap);
     highest_force = std::max(highest_force, terms.highest_force);
   }
-  judge_admissibility(F_C, u, highest_gap, highest_force, error);
+  judge_admissibility(fields, highest_gap, highest_force, error);
   note_bounds<k>(system, fields, highest_gap, error);
   // Where the mesh lets bodies miss each other, û may know better: then all is error.
   const LoadScale scale = load_scale(problem);
   const double of_stress = std::sqrt(2 * fields.energy), of_u = std::sqrt(2 * fields.energy_of_u);
   error.norm = scale.is_no_energy(of_stress) ? of_u : of_stress;
-  const auto relative = [&](double squared) {
-    return scale.relative_energy(std::sqrt(std::max(0.0, squared)), error.norm);
+  const auto relative = [&](double squared) {  // below 0 it is rounding of this size
+    return scale.relative_energy(std::sqrt(std::abs(squared)), error.norm);
   };
   error.relative = relative(error.squared_Nmm());
   error.relative_of_mean = relative(error.squared_of_mean_Nmm());

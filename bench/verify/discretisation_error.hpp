@@ -8,9 +8,10 @@
 //   e² = ∫ (σ − Aε(u)):C:(σ − Aε(u))
 //        + 2 ∫_{Γ_C} σ_n (u_n − g0)  +  2 ∫_{Γ_C} μ|σ_n||u_t| + σ_t u_t
 //
-// and every term is ≥ 0. g0 is the true gap to the wall, not its quadratic approximation
-// (wall_gap.hpp). In load steps u_t excludes the slip of earlier steps. e = 0 exactly if σ and u
-// solve the problem. Without friction
+// and every term is ≥ 0. An e² < 0 that rounding explains (1e-11 of the strain energies) is zero up
+// to its size, which is given instead. g0 is the true gap to the wall, not its quadratic
+// approximation (wall_gap.hpp). In load steps u_t excludes the slip of earlier steps. e = 0 exactly
+// if σ and u solve the problem. Without friction
 //
 //   e² = 2 (Π(u) + Π*(σ)),    −Π*(σ) ≤ Π(u_exact) = −Π*(σ_exact) ≤ Π(u)
 //

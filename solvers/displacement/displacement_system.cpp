@@ -107,6 +107,7 @@ void subtract_known_forces(const Element<p>& element, DisplacementSystem& system
 template <int p>
 void add_triangles(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
                    DisplacementSystem& system) {
+  constexpr double rigid = 1e8;
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const Element<p> own =
@@ -118,7 +119,7 @@ void add_triangles(const Problem& problem, const std::map<int, Eigen::Matrix2d>&
     for (int j = 1; j < Element<p>::size; j += 2)
       if (const auto row = system.held_tangent.find(own.nodes[j / 2]);
           row != system.held_tangent.end() && own.unknown[j] == DisplacementSystem::prescribed)
-        system.K.add_diagonal(row->second, centre, own.K(j, j));
+        system.K.add_diagonal(row->second, centre, rigid * own.K(j, j));
   }
 }
 
@@ -198,6 +199,7 @@ Eigen::VectorXd unbalanced_forces(const Problem& problem, const DisplacementSyst
   Eigen::VectorXd r = Eigen::VectorXd::Zero(system.b.size());
   add_nodal(nodal_loads(problem, system.degree) - of_stresses.sum, frames(system), system, r);
   r.tail(system.n_c()) += F_C;
+  for (const auto& [node, row] : system.held_tangent) r(row) = 0;  // the roller bears it
   return r;
 }
 

@@ -33,7 +33,7 @@ struct DisplacementSystem {
   // tangential.
   std::vector<std::array<int, 2>> unknown;
   // Control points on a roller: the row of the tangential coefficient, which is prescribed. It
-  // stands alone in K, so that its force and r_t are zero.
+  // stands alone in K, with so large a diagonal that friction does not move it.
   std::map<int, int> held_tangent;
   ElementMatrices K;                              // N/mm
   Eigen::VectorXd b;                              // N, without the contact forces

@@ -7,10 +7,13 @@
 #include <Eigen/SparseCholesky>
 #include <complex>
 
+#include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
+#include "solvers/loading/load_steps.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/far_from_origin.hpp"
 #include "tests/support/method_names.hpp"
+#include "tests/support/pieces.hpp"
 #include "tests/support/polynomial.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
@@ -264,6 +267,97 @@ TEST_P(Displacements, AContactVertexOnThePrescribedBoundaryHasNoLaw) {
     for (const int vertex : edge.vertices)
       EXPECT_LT((u.col(vertex) - scene.displacement_mm).norm(), 1e-16);
   }
+}
+
+// A block under 25 MPa that a roller on its left moves along a wall or another block, 2 mm wide:
+// all of it slips, also where the roller meets the face.
+Mesh pushed_block(bool on_block, const std::string& beside_base) {
+  Mesh mesh;
+  mesh.name = "pushed";
+  if (on_block)
+    testing::add_block(mesh, "base", {0, -1}, {2, 0}, 4, 2,
+                       {"displacement:floor", "force", "contact:base", beside_base});
+  testing::add_block(mesh, "block", {0, 0}, {2, 1}, on_block ? 3 : 4, 2,
+                     {"contact:block", "force", "force:top", "displacement:side"});
+  validate(mesh);
+  return mesh;
+}
+
+Scene pushing(const Mesh& mesh, double moved_mm) {
+  const auto constant = [](const Eigen::Vector2d& u) {
+    return LinearValue<Eigen::Vector2d>{{u, u}};
+  };
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  scene.friction = 0.2;
+  if (mesh.body_names.size() == 2)
+    scene.contacts = {
+        {.between = {{{"contact:block"}, {"contact:base"}}}, .friction = scene.friction}};
+  scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{25, 25}};
+  scene.displacement_mm = {0, 0};
+  scene.boundary["displacement:side"].displacement_mm = constant({moved_mm, 0});
+  for (const std::string& group : mesh.boundary_groups)
+    if (group == "side" || group == "rest")
+      scene.boundary["displacement:" + group].support = BoundaryValues::Support::normal;
+  return scene;
+}
+
+double friction_on_block(const DualSystem& system, const Solution& solution) {
+  const ControlPoints control = control_points(*system.problem, system.degree + 1);
+  const Mesh& mesh = system.problem->mesh;
+  double sum = 0;
+  for (int p = 0; p < control.law.count; ++p)
+    if (boundary_label(mesh, mesh.boundary[control.law.boundary[p]]) == "contact:block")
+      sum += solution.F_C(2 * p + 1);
+  return sum;
+}
+
+TEST_P(Displacements, KeepFrictionWhereARollerMeetsTheFace) {
+  for (const auto& [on_block, beside_base] :
+       {std::pair{false, ""}, {true, "force"}, {true, "displacement:rest"}})
+    for (const double moved_mm : {0.001, -0.001}) {
+      SCOPED_TRACE(::testing::Message() << beside_base << " " << moved_mm);
+      const Mesh mesh = pushed_block(on_block, beside_base);
+      Scene scene = pushing(mesh, moved_mm);
+      LoadStep back;
+      back.boundary["displacement:side"].displacement_mm =
+          LinearValue<Eigen::Vector2d>{{Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0)}};
+      scene.later_steps = {back};
+      const auto problem = posed(scene, mesh);
+      std::vector<double> friction_N, dissipated, of_hybrid;
+      DualSystem system = assembled(problem);
+      solve_load_steps(GetParam().solve, system, {},
+                       [&](int, const DualSystem& step, const Solution& solution) {
+                         ASSERT_EQ(solution.status, Status::ok) << solution.message;
+                         friction_N.push_back(friction_on_block(step, solution));
+                         dissipated.push_back(dissipation_Nmm(step, solution));
+                       });
+      DualSystem in_stresses = assembled(problem);
+      solve_load_steps(select_methods(hybrid_of_degree(k)).front().solve, in_stresses, {},
+                       [&](int, const DualSystem& step, const Solution& solution) {
+                         of_hybrid.push_back(dissipation_Nmm(step, solution));
+                       });
+      ASSERT_EQ(friction_N.size(), 2u);
+      ASSERT_EQ(of_hybrid.size(), 2u);
+      EXPECT_NEAR(friction_N[0], -std::copysign(10, moved_mm), 1e-7);
+      EXPECT_NEAR(friction_N[1], std::copysign(10, moved_mm), 1e-7);
+      for (std::size_t step = 0; step < 2; ++step)
+        EXPECT_NEAR(dissipated[step], of_hybrid[step], 0.04 * of_hybrid[step]);
+    }
+}
+
+// Its slip is zero up to rounding: no friction comes of that.
+TEST_P(Displacements, OfARollerThatRestsAreWithoutFriction) {
+  const Mesh mesh = pushed_block(false, "");
+  const Scene scene = pushing(mesh, 0);
+  const DualSystem system = assembled(posed(scene, mesh));
+  const Solution solution = run(GetParam(), system, {});
+  ASSERT_EQ(solution.status, Status::ok) << solution.message;
+  const ControlPoints control = control_points(*system.problem, p);
+  for (int point = 0; point < control.law.count; ++point)
+    if (control.on_roller[point]) {
+      EXPECT_EQ(solution.F_C(2 * point + 1), 0);
+    }
 }
 
 TEST_P(Displacements, OfABodyThatOnlyMovesHaveNoStress) {

@@ -162,18 +162,23 @@ TEST(ConstitutiveError, EveryTermIsNonNegativeAndTheTrianglesSumToAll) {
   }
 }
 
-TEST(ConstitutiveError, IsZeroWhereBothSolutionsAreExact) {
+// Constant stress with a shear τ between a body and a wall; slid along it by so many mm.
+Solved exact_solution(double tau, double slip) {
   constexpr double young = 2000, poisson = 0.3, mu = 0.25;
   const Eigen::Matrix3d c = compliance({young, poisson}, Plane::stress);
+  const Eigen::Vector3d stress(-100, -100 * poisson, tau), strain = c * stress;
+  testing::ExactField exact;
+  exact.body_force.setZero();
+  exact.stress = [=](const Eigen::Vector2d&) { return stress; };
+  exact.displacement = [=](const Eigen::Vector2d& x) {
+    return Eigen::Vector2d(strain(0) * (x.x() - 10), strain(2) * (x.x() - 10) + slip);
+  };
+  return Solved(make_problem(testing::small_tooth(5, 4), {c}, testing::loads_of(exact), mu));
+}
+
+TEST(ConstitutiveError, IsZeroWhereBothSolutionsAreExact) {
   for (const auto& [tau, slip] : {std::pair{10.0, 0.0}, {25.0, -0.5}, {-25.0, 0.3}}) {
-    const Eigen::Vector3d stress(-100, -100 * poisson, tau), strain = c * stress;
-    testing::ExactField exact;
-    exact.body_force.setZero();
-    exact.stress = [=](const Eigen::Vector2d&) { return stress; };
-    exact.displacement = [=, slid = slip](const Eigen::Vector2d& x) {
-      return Eigen::Vector2d(strain(0) * (x.x() - 10), strain(2) * (x.x() - 10) + slid);
-    };
-    const Solved s(make_problem(testing::small_tooth(5, 4), {c}, testing::loads_of(exact), mu));
+    const Solved s = exact_solution(tau, slip);
     const ConstitutiveError error = s.error();
     const double squared = stress_norm_squared(*s.system.problem, s.hybrid.stress);
     EXPECT_LT(error.body_Nmm, 1e-18 * squared) << tau;
@@ -181,6 +186,22 @@ TEST(ConstitutiveError, IsZeroWhereBothSolutionsAreExact) {
     EXPECT_LT(std::abs(error.normal_contact_Nmm), 1e-11 * squared) << tau;
     EXPECT_LT(std::abs(error.tangential_contact_Nmm), 1e-11 * squared) << tau;
   }
+}
+
+// A friction force a little too large makes e² negative.
+TEST(ConstitutiveError, BelowZeroByRoundingItIsThatRounding) {
+  const Solved s = exact_solution(25, -0.5);
+  const auto error = [&](double excess) {
+    Eigen::VectorXd F_C = s.hybrid.F_C;
+    for (Eigen::Index t = 1; t < F_C.size(); t += 2) F_C(t) *= 1 + excess;
+    return constitutive_error(s.system, s.hybrid.stress, F_C, s.displacements.displacement);
+  };
+  const ConstitutiveError rounded = error(1e-12), wrong = error(1e-6);
+  EXPECT_LT(rounded.squared_Nmm(), 0);
+  EXPECT_EQ(rounded.flaw, "");
+  EXPECT_GT(rounded.relative, 0);
+  EXPECT_LT(rounded.relative, 1e-5);
+  EXPECT_NE(wrong.flaw.find("e² is"), std::string::npos) << wrong.flaw;
 }
 
 TEST(ConstitutiveError, BoundsHoldTheExactEnergyAndCloseInOnIt) {
