@@ -108,9 +108,9 @@ TEST(Scene, ContradictionsAndImpossibleValuesAreNamed) {
   EXPECT_EQ(with([](Scene& s) { s.material.poisson = 0.5; }),
             "default scene: poisson: 0.5 (allowed: between -1 and 0.5, both excluded)");
   EXPECT_EQ(with([](Scene& s) { s.material.young_MPa = 0; }),
-            "default scene: young_MPa: 0 (allowed: > 0)");
+            "default scene: young_MPa: 0 (allowed: 1e-30 to 1e30)");
   EXPECT_EQ(with([](Scene& s) { s.friction = -0.1; }),
-            "default scene: friction: -0.1 (allowed: >= 0)");
+            "default scene: friction: -0.1 (allowed: 0 to 1e6)");
   EXPECT_EQ(with([](Scene& s) { s.crown_radius_mm = -1; }),
             "default scene: crown_radius_mm: -1 (allowed: > 0, or null for a wall on the edges)");
   EXPECT_EQ(with([](Scene& s) { s.clearance_mm = -1; }),

@@ -232,7 +232,17 @@ TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
   refused(with("W/i", whole({0, 2, 1, 0, 2, 4})), "/fclib_local/W/i: [5] is 4 (allowed: 0 to 3)");
   refused(with("W/i", whole({0, -1, 1, 0, 2, 3})), "/fclib_local/W/i: [1] is -1 (allowed: 0 to 3)");
   refused(with("vectors/mu", {{0.3, -0.1}}),
-          "/fclib_local/vectors/mu: [1] is -0.1 (allowed: at least 0)");
+          "/fclib_local/vectors/mu: [1] is -0.1 (allowed: 0 to 1e+06)");
+  refused(with("vectors/mu", {{0.3, 1e308}}),
+          "/fclib_local/vectors/mu: [1] is 1e+308 (allowed: 0 to 1e+06)");
+  for (const double scale : {1e308, 1e-300})
+    refused(
+        of([&](contact::Problem& p) { p.D = Eigen::Matrix4d::Identity() * scale; }),
+        fmt::format("/fclib_local/W: diagonal entry 0 is {:.3g} (allowed: 1e-50 to 1e+50)", scale));
+  refused(of([](contact::Problem& p) { p.D(1, 2) = p.D(2, 1) = 1e300; }),
+          "/fclib_local/W: entries of up to 1e+300 (allowed: 1e+50)");
+  refused(with("vectors/q", {{0, 1e-300, 0, 0}}),
+          "/fclib_local/W: its vector has entries of up to 1e-300 (allowed: 0, or 1e-50 to 1e+50)");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refused(with("vectors/mu", {{nan, 0}}),
           "/fclib_local/vectors/mu: [0] is nan (allowed: finite numbers)");
