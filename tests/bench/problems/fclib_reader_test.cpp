@@ -13,6 +13,7 @@
 #include "bench/problems/hdf5_handle.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "bench/verify/verifier.hpp"
+#include "solvers/contact/condensed.hpp"
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
 #include "tests/support/bench_command.hpp"
@@ -275,6 +276,31 @@ TEST_F(FclibReader, WhatIsNoHdf5IsRefused) {
     bench_.expect_refusal("--problem=p.hdf5", "p.hdf5: cannot be opened (allowed: an HDF5 file)\n");
   }
   bench_.expect_refusal("--problem=none.hdf5", "none.hdf5: cannot be opened: no such file\n");
+}
+
+// F ∝ q / W, as long as squares of F are numbers: what says that it converged is right.
+TEST_F(FclibReader, AtTheEndsOfTheRangeEverySolverIsRight) {
+  const Eigen::VectorXd right = solved(small_problem()).F_C;
+  for (const auto& [of_W, of_q] : {std::pair(1e49, 1.0),
+                                   {1e-50, 1.0},
+                                   {1.0, 1e49},
+                                   {1.0, 1e-50},
+                                   {1e-50, 1e49},
+                                   {1e49, 1e-50}}) {
+    contact::Problem scaled = small_problem();
+    scaled.D *= of_W;
+    scaled.G *= of_q;
+    const contact::Problem problem = read(contents_of(scaled, Storage::rows));
+    for (const ContactSolver solver : all_contact_solvers) {
+      SCOPED_TRACE(fmt::format("{:g}, {:g}: {}", of_W, of_q, name_of(solver)));
+      const ContactResult result = solve_contact(problem, {.solver = solver});
+      EXPECT_TRUE(result.converged);
+      EXPECT_LT((result.F_C * (of_W / of_q) - right).norm(), 1e-8 * right.norm());
+      const double measure = *verify(problem, result.F_C).natural_map_residual;
+      EXPECT_LT(measure, 1e-8);
+      EXPECT_GT(*verify(problem, 1.1 * result.F_C).natural_map_residual, 1e-3);
+    }
+  }
 }
 
 TEST_F(FclibReader, DamagedFilesAreRefusedOrRead) {
