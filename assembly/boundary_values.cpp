@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 
+#include "assembly/contact_conditions.hpp"
 #include "assembly/edge_forces.hpp"
 #include "mesh/transform_error.hpp"
 #include "support/lists.hpp"
@@ -54,12 +55,10 @@ void check_role(const std::string& label, BoundaryRole role, const BoundaryValue
 }
 
 void check(const std::string& label, const ContactValues& given) {
-  const auto not_negative = [&](const char* key, const std::optional<double>& value) {
-    if (value && (!(*value >= 0) || !std::isfinite(*value)))
-      refuse(label + ": " + key, *value, "(allowed: >= 0)");
-  };
-  not_negative("friction", given.friction);
-  not_negative("clearance_mm", given.clearance_mm);
+  if (given.friction && !(*given.friction >= 0 && *given.friction <= max_friction))
+    refuse(label + ": friction", *given.friction, "(allowed: 0 to 1e6)");
+  if (given.clearance_mm && (!(*given.clearance_mm >= 0) || !std::isfinite(*given.clearance_mm)))
+    refuse(label + ": clearance_mm", *given.clearance_mm, "(allowed: >= 0)");
   check_curve(label + ": wall", given.wall);
   check_curve(label + ": face", given.face);
 }

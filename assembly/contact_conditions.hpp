@@ -44,6 +44,7 @@ ContactGap contact_gap(const ReachableContact& contact, const Scene& scene);
 // Per row of Mesh::boundary; empty: the edges' own normals.
 std::vector<ContactNormals> contact_normals(const ReachableContact& contact, const Scene& scene);
 
+inline constexpr double max_friction = 1e6;  // more is no other law, and loses digits of μ F_n
 // μ per row of Mesh::boundary.
 std::vector<double> contact_friction(const ReachableContact& contact, const Scene& scene);
 

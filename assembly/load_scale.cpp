@@ -14,7 +14,7 @@ LoadScale load_scale(const Problem& problem) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& x : mesh.vertices) box.extend(x);
   const double diameter = box.diagonal().norm();
-  double displacement = 0, stress = loads.body_force_N_per_mm3.norm() * diameter;
+  double displacement = 0, stress = loads.body_force_N_per_mm3.stableNorm() * diameter;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
     const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
@@ -23,14 +23,14 @@ LoadScale load_scale(const Problem& problem) {
       if (edge.role == BoundaryRole::displacement) {
         Eigen::Vector2d u0 = problem.motion.at(x);
         if (loads.displacement_mm) u0 += loads.displacement_mm(x, row);
-        displacement =
-            std::max(displacement, problem.is_roller(row) ? std::abs(normal.dot(u0)) : u0.norm());
+        displacement = std::max(
+            displacement, problem.is_roller(row) ? std::abs(normal.dot(u0)) : u0.stableNorm());
       }
       // An interference acts as a displacement.
       if (edge.role == BoundaryRole::contact)
         displacement = std::max(displacement, -problem.offset_at(x, row).gap_mm);
       if (edge.role == BoundaryRole::force && loads.traction_MPa)
-        stress = std::max(stress, loads.traction_MPa(x, normal, row).norm());
+        stress = std::max(stress, loads.traction_MPa(x, normal, row).stableNorm());
     }
   }
   LoadScale scale;

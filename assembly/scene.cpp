@@ -8,6 +8,7 @@
 
 #include "assembly/contact_conditions.hpp"
 #include "assembly/edge_forces.hpp"
+#include "assembly/load_scale.hpp"
 #include "assembly/scene_errors.hpp"
 #include "support/lists.hpp"
 
@@ -164,6 +165,25 @@ void check_rollers_at_pairs(const Scene& scene, const Problem& problem) {
       }
 }
 
+// Squares of forces and energies must be numbers that a double can be.
+void check_scale(const Scene& scene, Problem& problem) {
+  const auto check = [&] {
+    const LoadScale scale = load_scale(problem);
+    for (const double size : {scale.energy_norm, scale.force_N})
+      if (size != 0 && !(size >= 1e-100 && size <= 1e100)) {
+        std::ostringstream forces;
+        forces << "forces of about " << scale.force_N << " N";
+        fail(scene, "loads", forces.str(), "(allowed: none, or 1e-100 to 1e100 N)");
+      }
+  };
+  check();
+  for (Loads& step : problem.later_steps) {
+    std::swap(problem.loads, step);
+    check();
+    std::swap(problem.loads, step);
+  }
+}
+
 std::vector<Eigen::Matrix3d> compliances(const Scene& scene, const Mesh& mesh) {
   for (const auto& [body, material] : scene.materials)
     if (std::ranges::count(mesh.body_names, body) == 0)
@@ -309,6 +329,7 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   check_pins(scene, problem);
   problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),
                              std::make_move_iterator(steps.end()));
+  check_scale(scene, problem);
   return problem;
 }
 

@@ -11,11 +11,16 @@ namespace airybench {
 namespace {
 
 void check_material(const Scene& scene, const std::string& prefix, const Material& material) {
-  if (!(material.young_MPa > 0) || !std::isfinite(material.young_MPa))
-    fail(scene, prefix + "young_MPa", material.young_MPa, "(allowed: > 0)");
+  if (!(material.young_MPa >= 1e-30 && material.young_MPa <= 1e30))
+    fail(scene, prefix + "young_MPa", material.young_MPa, "(allowed: 1e-30 to 1e30)");
   if (!(material.poisson > -1 && material.poisson < 0.5))
     fail(scene, prefix + "poisson", material.poisson,
          "(allowed: between -1 and 0.5, both excluded)");
+}
+
+void check_friction(const Scene& scene, const std::string& key, double friction) {
+  if (!(friction >= 0 && friction <= max_friction))
+    fail(scene, key, friction, "(allowed: 0 to 1e6)");
 }
 
 void check_loads(const Scene& scene, const std::string& prefix, const BoundaryConditions& boundary,
@@ -38,8 +43,7 @@ void check_clearance(const Scene& scene, const std::string& prefix, const Contac
 
 void check_contacts(const Scene& scene) {
   for (const ContactPair& pair : scene.contacts) {
-    if (pair.friction && (!(*pair.friction >= 0) || !std::isfinite(*pair.friction)))
-      fail(scene, "contacts: friction", *pair.friction, "(allowed: >= 0)");
+    if (pair.friction) check_friction(scene, "contacts: friction", *pair.friction);
     check_clearance(scene, "", pair);
   }
   for (const auto& [label, values] : scene.boundary)
@@ -126,8 +130,7 @@ void check_values(const Scene& scene) {
     check_material(scene, "layers: materials: ", material);
   of_scene(scene, "mesh", [&] { check_values(scene.mesh); });
   of_scene(scene, "layers", [&] { check_values(scene.layers); });
-  if (!(scene.friction >= 0) || !std::isfinite(scene.friction))
-    fail(scene, "friction", scene.friction, "(allowed: >= 0)");
+  check_friction(scene, "friction", scene.friction);
   if (scene.crown_radius_mm &&
       (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
     fail(scene, "crown_radius_mm", *scene.crown_radius_mm,

@@ -14,7 +14,8 @@ from case_names import case_name, file_of
 from records import RecordsError, cells_of, lines_file, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
-CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,opposite,state"
+CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,opposite,piece,state"
+WITHOUT_PIECES = CONTACT.replace("piece,", "")  # of an earlier bench
 MAY_BE_EMPTY = ("gap_mm", "slip_mm", "opposite", "normal_resultant_N", "tangential_resultant_N",
                 "n_open", "n_stick", "n_slip", "held_x_mm", "held_y_mm", "loaded_x_mm", "loaded_y_mm")
 DISPLACEMENT = "triangle,node,x_mm,y_mm,ux_mm,uy_mm"
@@ -50,6 +51,7 @@ class Fields:
     gap: np.ndarray | None = None    # (E, m) mm: along it, a mean around the point; NaN: unknown
     paired: np.ndarray | None = None  # (E,) it presses on another body, not on a wall
     touched: np.ndarray | None = None  # (E, m) the point touches in some load step; None: see state
+    of_step: str = ""    # which load step it is, in words; empty: the last
 
     @property
     def per_edge(self) -> int:
@@ -228,11 +230,12 @@ def unrolled(edges: np.ndarray) -> Unrolled:
 
 
 def read_table(path: Path, header: str,
-               words: tuple[str, ...] = (), other: str = "") -> tuple[np.ndarray, np.ndarray]:
+               words: tuple[str, ...] = (), *others: str) -> tuple[np.ndarray, np.ndarray]:
     """(numbers (rows, columns), words (rows,)); with `words` the last column is one of them.
-    Numbers that are not known are NaN. other: a header that is allowed, too."""
+    Numbers that are not known are NaN. others: headers that are allowed, too."""
     lines = cells_of(path)
-    columns = (other if other and lines and lines[0] == other.split(",") else header).split(",")
+    columns = next((other for other in others if lines and lines[0] == other.split(",")),
+                   header).split(",")
     if not lines or lines[0] != columns:
         raise RecordsError(f"{path}:1: expected the header {header}")
     cells = np.array(lines[1:], dtype=object).reshape(-1, len(columns))
@@ -305,7 +308,7 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
     if not np.isclose(inside, enclosed, rtol=1e-9):
         raise RecordsError(f"{path['boundary']}: encloses {enclosed:.9g} mm^2; expected the "
                           f"{inside:.9g} mm^2 of the triangles in {path['stress'].name}")
-    points, state = read_table(path["contact"], CONTACT, STATES)
+    points, state = read_table(path["contact"], CONTACT, STATES, WITHOUT_PIECES)
     contact, of_edges = boundary[role == "contact"], by_edge(points)
     if of_edges is None or not np.array_equal(of_edges[:, [0, -1], :2], contact):
         raise RecordsError(f"{path['contact']}: {len(points)} points; expected start and end of "

@@ -39,7 +39,7 @@ from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, en
 from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_cut, is_tall,
                          label_body, layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
-from load_path import read_path, table_of
+from load_path import LoadPath, read_path, table_of
 from load_path_drawing import FIXED, draw_path, frames, frames_of, write_gif
 from words import csv_of, percent, plain, width_of as words_width
 
@@ -110,6 +110,7 @@ def heading(solutions: list[Fields], scales: Scales) -> list[str]:
     if touching and scales.times is not None:
         has_walls = any(s.at_wall(face) for s in touching for face in s.faces())
         lines.append(OUTLINE + (WALLS if has_walls else BODIES))
+    lines += dict.fromkeys(s.of_step for s in solutions if s.of_step)
     return [*lines, plain(f"Scene and method: {words_of_file(solutions[0].name).partition(', ')[2]}")]
 
 
@@ -297,7 +298,9 @@ def draw(args: argparse.Namespace) -> None:
     levels = {picture: shown for picture, shown in levels.items() if picture in pictures}
     mapped = dict.fromkeys([*with_map, *(name for own, _ in levels.values() for name in own)])
     drawn = dict.fromkeys([*(chosen if "gallery" in pictures else ()), *singles, *mapped])
-    solutions = {name: read_fields(args.results, name, records) for name in drawn}
+    paths = {name: read_path(args.results, name) for name in names_in(args.results, "steps")
+             if name in drawn or name in with_path}
+    solutions = {name: read_telling(args.results, name, records, paths.get(name)) for name in drawn}
     maps = {name: (solutions[name], read_error_share(args.results, solutions[name])) for name in mapped}
     out.mkdir(parents=True, exist_ok=True)
     made = command.Made(out, "gallery")
@@ -320,7 +323,7 @@ def draw(args: argparse.Namespace) -> None:
         figure = draw_map(s, share)
         save(made, f"error_map_{name}", map_table(s, share), figure if args.vector else None,
              png=partial(write_small_png, figure, DPI, **SMALL_PNG))
-    draw_paths(args, made, with_path, records)
+    draw_paths(args, made, {name: paths[name] for name in with_path}, records)
     if args.only is None and (gone := made.remove_others()):
         print(f"removed, of other fields: {', '.join(gone)}")
 
@@ -329,10 +332,26 @@ def is_newer(file: Path, than: Path) -> bool:
     return file.is_file() and file.stat().st_mtime >= than.stat().st_mtime
 
 
-def draw_paths(args: argparse.Namespace, made: command.Made, names: list[str],
+def read_step(results: Path, name: str, step: int, records: dict[str, dict]) -> Fields:
+    """step: from 0."""
+    record = records.get(name, {"mesh": name.partition("--")[0], "n_phi": None})
+    return replace(read_fields(results, f"{name}.steps/{step + 1:04}", {}), name=name,
+                   mesh=record["mesh"], n_phi=record["n_phi"])
+
+
+def read_telling(results: Path, name: str, records: dict[str, dict],
+                 path: LoadPath | str | None) -> Fields:
+    """The solution, or of a path that ends unloaded its most loaded step."""
+    if not isinstance(path, LoadPath) or path.telling_step == len(path.step) - 1:
+        return read_fields(results, name, records)
+    step, last = path.step[path.telling_step], path.step[-1]
+    words = f"Load step {step} of {last}, the most loaded one: the last one is unloaded."
+    return replace(read_step(results, name, path.telling_step, records), of_step=words)
+
+
+def draw_paths(args: argparse.Namespace, made: command.Made, paths: dict[str, LoadPath | str],
                records: dict[str, dict]) -> None:
-    for name in names:
-        path = read_path(args.results, name)
+    for name, path in paths.items():
         if isinstance(path, str):
             print(f"load_path_{name}: left out: {path}")
             continue
@@ -343,9 +362,7 @@ def draw_paths(args: argparse.Namespace, made: command.Made, names: list[str],
                 moving, args.results / "fields" / f"{name}.steps.csv"):
             made.now.add(moving.name)  # of these fields: it stays
         if args.animate and path.has_body.any():
-            of_steps = {k: replace(read_fields(args.results, f"{name}.steps/{k + 1:04}", {}),
-                                   name=name, mesh=records.get(name, {}).get("mesh") or
-                                   name.partition("--")[0]) for k in frames_of(path)}
+            of_steps = {k: read_step(args.results, name, k, records) for k in frames_of(path)}
             writers["gif"] = partial(write_gif, frames(path, of_steps))
         save(made, f"load_path_{name}", table_of(path), figure if args.vector else None, **writers)
 

@@ -8,16 +8,19 @@ from pathlib import Path
 
 import numpy as np
 
-from fields import CONTACT, STATES, by_edge, chains, part_shown, parts, read_table, unrolled
+from fields import (CONTACT, STATES, WITHOUT_PIECES, by_edge, chains, part_shown, parts, read_table,
+                    unrolled)
 from records import RecordsError
 from words import csv_of
 
 STEPS = ("step,normal_resultant_N,tangential_resultant_N,dissipation_Nmm,n_open,n_stick,n_slip,"
-         "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,same_loads_as,fields")
-WITHOUT_RETURNS = STEPS.replace("same_loads_as,", "")  # of an earlier bench
+         "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,piece,same_loads_as,fields")
+WITHOUT_PIECE = STEPS.replace("piece,", "")  # of an earlier bench
+WITHOUT_RETURNS = WITHOUT_PIECE.replace("same_loads_as,", "")  # of one before
 PARTS = ("body", "contact")
 CLOSED = 1e-3  # of the range of a force or displacement: a cycle that returns to it
 SLIGHT = 0.1  # tangential motion, of the normal one: the loop shows the normal one
+UNLOADED = 0.01  # of the largest contact forces of the path
 
 
 @dataclass(frozen=True)
@@ -26,14 +29,16 @@ class LoadPath:
     step: np.ndarray         # (N,) from 1
     has_body: np.ndarray     # (N,) whether the stresses of the step are in files
     is_normal: bool          # push and moved are normal to the face, else along its mean tangent
-    push: np.ndarray         # (N,) N: force on the wall in that direction
-    normal: np.ndarray       # (N,) N: force on the wall along its mean normal
+    obstacle: str            # what the face that is shown presses on: "wall" or "other body"
+    push: np.ndarray         # (N,) N: force of the body that is moved on what it touches, in that direction
+    normal: np.ndarray       # (N,) N: the same along the face's mean normal
+    pressed: np.ndarray      # (N,) N: sum of the sizes of all contact forces
     dissipated: np.ndarray   # (N,) N mm, in each step
     moved: np.ndarray | None  # (N,) mm: displacement in that direction; None: unknown
-    moved_what: str          # whose: held or loaded boundary
+    moved_what: str          # whose: held or loaded boundary of this body
     loads: np.ndarray        # (N,) number of the first step with these loads
     face: int                # which is shown, from 0, of
-    faces: int
+    faces: int               # this body's
     axis: str
     along: np.ndarray        # (P, 2) mm: part of the edge around each point
     state: np.ndarray        # (N, P) of STATES
@@ -63,6 +68,15 @@ class LoadPath:
         """Limits of the part of the face that is drawn, mm."""
         return part_shown(self.along, (self.state != "open").any(0))
 
+    @property
+    def telling_step(self) -> int:
+        """The step, from 0, that stands for the path where one is drawn: the last; of those with a body
+        in files the most loaded if the path ends unloaded."""
+        last = len(self.step) - 1
+        if not self.has_body.any() or self.pressed[last] > UNLOADED * self.pressed.max():
+            return last
+        return int(np.argmax(np.where(self.has_body, self.pressed, -1)))
+
     def dissipated_in_cycle(self) -> float:
         return float(self.dissipated[self.cycle][1:].sum())
 
@@ -79,13 +93,22 @@ def returns(values: np.ndarray, cycle: slice) -> bool:
 
 
 def contact_of(results: Path, name: str, step: int) -> tuple[np.ndarray, np.ndarray]:
-    return read_table(results / "fields" / f"{name}.steps" / f"{step:04}.contact.csv", CONTACT, STATES)
+    return read_table(results / "fields" / f"{name}.steps" / f"{step:04}.contact.csv", CONTACT, STATES,
+                      WITHOUT_PIECES)
+
+
+def on_moved_body(points: np.ndarray, steps: np.ndarray) -> np.ndarray:
+    """(P,) whether it is a contact point of the body that the path moves. Files of an earlier bench do
+    not tell: those at walls, and the first of two bodies."""
+    if points.shape[1] > 10:
+        return points[:, 10] == steps[0, 11]
+    return ~(points[:, 9] < np.arange(len(points)) + 1)
 
 
 def read_path(results: Path, name: str) -> LoadPath | str:
     """The path, or why there is nothing to see; throws RecordsError."""
     table = results / "fields" / f"{name}.steps.csv"
-    numbers, files = read_table(table, STEPS, PARTS, WITHOUT_RETURNS)
+    numbers, files = read_table(table, STEPS, PARTS, WITHOUT_PIECE, WITHOUT_RETURNS)
     if not np.array_equal(numbers[:, 0], np.arange(len(numbers)) + 1) or len(numbers) == 0:
         raise RecordsError(f"{table}: expected the steps 1, 2, 3 and so on, a row each")
     points = [contact_of(results, name, step) for step in range(1, len(numbers) + 1)]
@@ -101,7 +124,10 @@ def read_path(results: Path, name: str) -> LoadPath | str:
     if of_edges is None:
         raise RecordsError(f"{table.with_suffix('')}/0001.contact.csv: expected start and end of each contact edge")
     edges, m = of_edges[:, [0, -1], :2], of_edges.shape[1]
-    faces = chains(edges)
+    ours = on_moved_body(first, numbers)
+    faces = [own for own in chains(edges) if ours[rows_of(own, m)].all()]
+    if not faces:
+        return "no contact points on the body that it moves"
     face = int(np.argmin([force[:, rows_of(own, m), 0].sum() for own in faces]))  # pressed most
     chosen = rows_of(faces[face], m)
     line = unrolled(edges[faces[face]])
@@ -113,13 +139,12 @@ def read_path(results: Path, name: str) -> LoadPath | str:
             (("held", 7), ("loaded", 9)) if np.isfinite(numbers[:, k:k + 2]).all()}
     moved_what = max(ways, key=lambda what: np.ptp(ways[what], axis=0).max(), default="")
     moved = ways.get(moved_what)
-    other = first[:, 9]  # of pairs both sides are in the file: the first counts
-    once = ~((other > 0) & (other < np.arange(len(first)) + 1))
-    push = -on_body[:, once].sum(1) @ np.stack([mean, (-mean[1], mean[0])], 1)
-    loads = numbers[:, 11] if numbers.shape[1] > 11 else numbers[:, 0]
+    push = -on_body[:, ours].sum(1) @ np.stack([mean, (-mean[1], mean[0])], 1)
+    loads = numbers[:, -1] if numbers.shape[1] > 11 else numbers[:, 0]
     path = LoadPath(
-        name, numbers[:, 0].astype(int), files == "body", False, push[:, 1], push[:, 0],
-        numbers[:, 3], None if moved is None else moved[:, 1], moved_what, loads.astype(int), face,
+        name, numbers[:, 0].astype(int), files == "body", False,
+        "other body" if np.isfinite(first[chosen, 9]).any() else "wall", push[:, 1], push[:, 0],
+        np.hypot(*force.T).T.sum(1), numbers[:, 3], None if moved is None else moved[:, 1], moved_what, loads.astype(int), face,
         len(faces), line.axis, parts(line.along, m),
         np.array([state for _, state in points])[:, chosen],
         force[:, chosen] * np.array([-1, 1]) / (lengths[chosen, None] / m))  # F = (L/m) t

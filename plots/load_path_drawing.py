@@ -117,14 +117,15 @@ def part_of(path: LoadPath) -> str:
 
 
 def way_of(path: LoadPath) -> str:
-    return "on the wall, normal to it," if path.is_normal else "along the wall"
+    return (f"on the {path.obstacle}, normal to it," if path.is_normal else
+            f"along the {path.obstacle}")
 
 
 def whose(path: LoadPath) -> str:
     if not path.moved_what:
         return "the steps (displacements are unknown)"
     way = "towards" if path.is_normal else "along"
-    return f"the mean displacement of the {path.moved_what} boundary {way} it"
+    return f"the mean displacement of its {path.moved_what} boundary {way} it"
 
 
 def corners_of(path: LoadPath) -> tuple[np.ndarray, np.ndarray]:
@@ -145,7 +146,7 @@ def draw_loop(axes: Axes, path: LoadPath, until: int | None = None) -> None:
     axes.axhline(0, color="0.5", linewidth=0.5)
     axes.set_xlabel("load step" if path.moved is None else
                     f"displacement of the {path.moved_what} boundary, µm", labelpad=1)
-    axes.set_ylabel("force on the wall, N/mm", labelpad=2)
+    axes.set_ylabel(f"force on the {path.obstacle}, N/mm", labelpad=2)
     axes.margins(0.08)
     if until is None:
         middle = (path.push.min() + path.push.max()) / 2

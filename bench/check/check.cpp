@@ -31,8 +31,13 @@ struct Compared {
   Names like, unlike;          // mistakes that the answer is, and is not, the one of
   std::string unnamed;         // what to say if no mistake is like it
   bool has_no_forces = false;  // as many mistakes lead to
-  bool has_friction = false;
+  bool is_answered = false;    // with finite forces, as many as there should be
+  double off = 0;              // of these, relative to the right ones
+  Names laws;                  // that the right answer needs
 };
+
+constexpr const char *friction_law = "the friction law: where no point slips it is right",
+                     *opening = "the opening of points: where none opens it is right";
 
 // The condensed problem in the rows of the program's F_C, and its solution.
 struct Condensed {
@@ -60,29 +65,48 @@ std::string in_short(const std::string& reason) {
   return line;
 }
 
-std::string unnamed_forces(const Eigen::VectorXd& F, const Eigen::VectorXd& right) {
+constexpr const char* too_early = "an iteration that ends too early";
+
+std::string unnamed_forces(double off, double target) {
   constexpr double near = 0.05;
-  const double off = (F - right).norm() / right.norm();
-  if (F.isZero(0)) return "no forces at all";
-  if (off <= near)
-    return fmt::format("an iteration that ends too early: forces are off by {:.0e}", off);
+  if (off <= target) return "the contact forces are right, the rest of the answer is not";
+  if (off <= near) return fmt::format("{}: forces are off by {:.0e}", too_early, off);
   return fmt::format("none of the known mistakes: forces are off by {:.2g} of theirs", off);
 }
 
-void compare_forces(const Eigen::VectorXd& F, const Condensed& condensed, Compared& c) {
+// Of the right forces: a friction law that is wrong by any factor is wrong where points slip.
+Names laws_of(const ContactPoints& points, const Eigen::VectorXd& F) {
+  constexpr double rounding = 1e-6;
+  Names laws;
+  const int m = points.components;
+  for (int p = 0; p < points.count; ++p) {
+    const double F_n = F(m * p), bound = points.friction_at(p) * -F_n;
+    if (F_n >= -rounding * F.lpNorm<Eigen::Infinity>())
+      laws.insert(opening);
+    else if (m > 1 && std::abs(F(m * p + 1)) >= (1 - rounding) * bound)
+      laws.insert(friction_law);
+  }
+  return laws;
+}
+
+void compare_forces(const Eigen::VectorXd& F, const Condensed& condensed, double target,
+                    Compared& c) {
   const Eigen::VectorXd& right = condensed.F_C;
   const bool is_right = are_alike(F, right);
+  c.is_answered = true;
+  c.off = (F - right).norm() / right.norm();
   c.has_no_forces = F.isZero(0);
+  Names fitting;
   for (const Mistake& mistake : mistakes_with(condensed.problem, right)) {
     const bool shows = mistake.F_C.size() > 0 && !are_alike(mistake.F_C, right);
     const bool fits = shows ? are_alike(F, mistake.F_C) : is_right;
+    if (fits) fitting.insert(mistake.name);
     if (!fits && mistake.F_C.size() > 0) c.unlike.insert(mistake.name);
     if (fits && shows) c.like.insert(mistake.name);
   }
-  if (is_right && !c.seen.passed)
-    c.unnamed = "the contact forces are right, the rest of the answer is not";
-  else if (!c.seen.passed)
-    c.unnamed = unnamed_forces(F, right);
+  for (const std::string& name : fitting) c.unlike.erase(name);
+  if (!c.seen.passed)
+    c.unnamed = c.has_no_forces ? "no forces at all" : unnamed_forces(c.off, target);
 }
 
 Compared check_case(const Method& program, const PosedScene& scene, const Options& options) {
@@ -105,13 +129,13 @@ Compared check_case(const Method& program, const PosedScene& scene, const Option
   c.seen.verdict = name_of(record.status);
   c.seen.passed = record.status == Status::ok;
   const Condensed condensed = condensed_of(program, scene);
-  c.has_friction = condensed.problem.points.components > 1;
+  c.laws = laws_of(condensed.problem.points, condensed.F_C);
   if (F.size() != condensed.F_C.size())
     c.unnamed = in_short(record.status_reason);
   else if (!F.allFinite())
     c.unnamed = "forces that are no numbers";
   else
-    compare_forces(F, condensed, c);
+    compare_forces(F, condensed, options.target_error, c);
   return c;
 }
 
@@ -122,7 +146,9 @@ Compared check_without_solution(const Method& program, const PosedScene& scene,
   RunControl control;
   control.deadline = Deadline::after(options.timeout_s);
   const Solution answer = answer_without_solution(program, scene, control);
-  c.seen.passed = answer.status == Status::not_converged || answer.status == Status::breakdown;
+  c.seen.passed =  // by its own word: an answer that cannot be read is a breakdown, too
+      answer.program &&
+      (answer.status == Status::not_converged || answer.status == Status::breakdown);
   c.seen.verdict = c.seen.passed               ? "ok"
                    : has_answer(answer.status) ? "wrong ok"
                                                : std::string(name_of(answer.status));
@@ -134,6 +160,47 @@ Compared check_without_solution(const Method& program, const PosedScene& scene,
 
 std::string text_of(const Names& names) { return fmt::format("{}", fmt::join(names, ", or ")); }
 
+bool is_absolute_tolerance(const Compared& c, const std::vector<Compared>& all) {
+  return c.seen.name == tiny_case && !c.seen.passed &&
+         std::ranges::any_of(all, [](const Compared& other) {
+           return other.seen.name == same_as_tiny && other.seen.passed;
+         });
+}
+
+// Where no mistake explains all answers: what the cases that failed have in common, and no other.
+std::string common_flaw(const std::vector<Compared>& all) {
+  std::vector<const Compared*> failed;
+  Names right;  // laws of the cases that passed
+  bool has_passed = false;
+  for (const Compared& c : all) {
+    if (c.seen.name == case_without_solution || is_absolute_tolerance(c, all)) continue;
+    if (!c.seen.passed) {
+      failed.push_back(&c);
+      continue;
+    }
+    has_passed = true;
+    right.insert(c.laws.begin(), c.laws.end());
+  }
+  if (failed.empty()) return "";
+  const auto all_failed = [&](const auto& is_so) { return std::ranges::all_of(failed, is_so); };
+  if (!has_passed && all_failed([](const Compared* c) { return !c->is_answered; }))
+    return "no answer: " + failed.front()->unnamed;
+  if (!all_failed([](const Compared* c) { return c->is_answered; })) return "";
+  for (const char* law : {friction_law, opening})
+    if (has_passed && !right.contains(law) &&
+        all_failed([&](const Compared* c) { return c->laws.contains(law); }))
+      return fmt::format("something in {}", law);
+  constexpr double converging = 0.5;
+  const bool laws_are_right =
+      has_passed && all_failed([&](const Compared* c) {
+        return c->off <= converging && std::ranges::includes(right, c->laws);
+      });
+  if (laws_are_right) return fmt::format("{}: the same laws are right in other cases", too_early);
+  if (all_failed([](const Compared* c) { return c->unnamed.starts_with(too_early); }))
+    return too_early;
+  return "";
+}
+
 // Names the mistakes that explain every answer, or else those that explain the case.
 CheckReport conclude(std::vector<Compared>& all) {
   Names explain;
@@ -141,19 +208,7 @@ CheckReport conclude(std::vector<Compared>& all) {
   for (const Compared& c : all)
     for (const std::string& name : c.unlike) explain.erase(name);
   CheckReport report;
-  report.conclusion = text_of(explain);
-  const auto failed = [](const Compared& c) { return !c.seen.passed; };
-  const auto right_or_with_friction = [](const Compared& c) {
-    return c.seen.passed || c.has_friction || c.seen.name == case_without_solution;
-  };
-  const auto passes_without = [](const Compared& c) { return c.seen.passed && !c.has_friction; };
-  if (explain.empty() && std::ranges::any_of(all, failed) &&
-      std::ranges::all_of(all, right_or_with_friction) && std::ranges::any_of(all, passes_without))
-    report.conclusion = "something in the friction law: what has no friction is right";
-  const auto passed = [&](const char* name) {
-    return std::ranges::any_of(
-        all, [&](const Compared& c) { return c.seen.name == name && c.seen.passed; });
-  };
+  report.conclusion = explain.empty() ? common_flaw(all) : text_of(explain);
   for (Compared& c : all) {
     Names like;
     std::ranges::set_intersection(c.like, explain, std::inserter(like, like.end()));
@@ -161,7 +216,7 @@ CheckReport conclude(std::vector<Compared>& all) {
                         : !like.empty()                       ? text_of(like)
                         : !c.like.empty() && !c.has_no_forces ? text_of(c.like)
                                                               : c.unnamed;
-    if (c.seen.name == tiny_case && !c.seen.passed && passed(same_as_tiny))
+    if (is_absolute_tolerance(c, all))
       c.seen.looks_like = "an absolute tolerance: with a billion times the loads it is right";
     else if (!c.seen.passed && c.like.empty() && c.seen.verdict == "breakdown" && !c.about.empty())
       c.seen.looks_like = fmt::format("{} ({})", c.seen.looks_like, c.about);

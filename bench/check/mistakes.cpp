@@ -154,7 +154,14 @@ void add_laws(Collector& to) {
   const auto mu = [&points](int point) { return points.friction_at(point); };
   Law pulls;
   pulls.opens = false;
-  to.law("points do not open: F_n > 0", pulls);
+  const char* closed = "points do not open: F_n > 0";
+  to.law(closed, pulls);
+  if (to.has_friction())  // programs differ in the limit of what pulls
+    for (const double pulled : {0.0, endless}) {
+      Law other = pulls;
+      other.limit = [=](int p, double F_n) { return F_n > 0 ? pulled : mu(p) * std::abs(F_n); };
+      to.law(closed, other);
+    }
   VectorXd cut = solved(to.problem, pulls);
   for (int p = 0; p < points.count && cut.size() > 0; ++p)
     if (cut(points.components * p) > 0)

@@ -14,7 +14,8 @@ struct Mistake {
   Eigen::VectorXd F_C;  // N; empty: it has no answer
 };
 
-// All mistakes, in the same order for every problem. right: the problem's answer.
+// All mistakes, in the same order for every problem; variants of one have its name. right: the
+// problem's answer.
 std::vector<Mistake> mistakes_with(const contact::Problem& problem, const Eigen::VectorXd& right);
 
 // ‖a − b‖ ≤ 1e-4 ‖b‖. Programs that make the same mistake agree to their own accuracy.

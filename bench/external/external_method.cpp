@@ -25,9 +25,12 @@
 namespace airybench {
 namespace {
 
+// run: the status is the program's word, in an answer.json that can be read.
 struct NoAnswer : std::runtime_error {
-  NoAnswer(Status what, const std::string& message) : std::runtime_error(message), status(what) {}
+  NoAnswer(Status what, const std::string& message, std::optional<ProgramRun> of_word = {})
+      : std::runtime_error(message), status(what), run(std::move(of_word)) {}
   Status status;
+  std::optional<ProgramRun> run;
 };
 
 struct Caller {
@@ -120,6 +123,7 @@ class ProgramSolve {
 
   void end_handing_over() {
     work_.reset();
+    run_.solve_s = answer_.time_s;
     run_.not_solve_s = seconds_since(start_) - answer_.time_s;
   }
   Solution take_over(const RunControl& control, Eigen::VectorXd F_C = {}) {
@@ -157,7 +161,7 @@ class ProgramSolve {
     }
   }
   [[noreturn]] void fail_as_it_says() const {
-    throw NoAnswer(answer_.status, answer_.message.empty() ? "no message" : answer_.message);
+    throw NoAnswer(answer_.status, answer_.message.empty() ? "no message" : answer_.message, run_);
   }
   bool gave_up() const { return answer_.status == Status::not_converged; }
   static Status status_of_end(const ChildEnd& end) {
@@ -270,16 +274,18 @@ void check_components(const Declaration& declaration, int components) {
 template <typename AnySolve>
 auto with_no_answer(AnySolve solve) {
   return [solve = std::move(solve)](const auto& problem, const RunControl& control) {
-    const auto failed = [](Status status, const std::string& message) {
+    const auto failed = [](Status status, const std::string& message,
+                           const std::optional<ProgramRun>& run = {}) {
       Solution solution;
       solution.status = status;
       solution.message = message;
+      solution.program = run;
       return solution;
     };
     try {
       return solve(problem, control);
     } catch (const NoAnswer& why) {
-      return failed(why.status, why.what());
+      return failed(why.status, why.what(), why.run);
     } catch (const FileError& why) {
       return failed(Status::breakdown, fmt::format("its answer: {}", why.what()));
     } catch (const std::system_error& why) {  // no process could be started

@@ -2,7 +2,8 @@
 // solves the whole problem; one that reads the condensed problem replaces the contact law of
 // HYBRID. The harness writes the files, reads the answer (answer.hpp) and computes the stresses
 // from φ or u. Times are the program's own clock for its work and ours for the rest;
-// Solution::program has our time and memory of the program as a whole.
+// Solution::program has our time and memory of the program as a whole; without an answer it is
+// there where the status is the program's own word.
 #pragma once
 
 #include <cstdint>

@@ -73,13 +73,15 @@ std::string contact_csv(const ContactPicture& picture) {
     return is_paired ? fmt::format("{}", picture.opposite[p] + 1) : std::string();
   };
   std::string text =
-      "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,opposite,state\n";
+      "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,opposite,piece,"
+      "state\n";
   for (std::size_t p = 0; p < picture.force.size(); ++p) {
     const EdgeFrame& frame = picture.frame[p];
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", picture.at_mm[p].x(),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", picture.at_mm[p].x(),
                         picture.at_mm[p].y(), frame.normal.x(), frame.normal.y(), frame.length_mm,
                         picture.force[p](0), picture.force[p](1), value(picture.gap_mm, p),
-                        value(picture.slip_mm, p), row_of_opposite(p), name_of(picture.state[p]));
+                        value(picture.slip_mm, p), row_of_opposite(p), picture.piece[p] + 1,
+                        name_of(picture.state[p]));
   }
   return text;
 }
@@ -248,6 +250,7 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
   ContactPicture picture;
   picture.per_edge = static_cast<std::size_t>(contact.per_edge);
   picture.opposite = contact.opposite;
+  const MeshPieces pieces = pieces_of(system.problem->mesh);
   for (int p = 0; p < contact.count; ++p) {
     const int row = contact.boundary[p];
     const auto [start, end] = system.problem->mesh.boundary[row].vertices;
@@ -256,6 +259,7 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
     picture.at_mm.push_back((1 - s) * system.problem->mesh.vertices[start] +
                             s * system.problem->mesh.vertices[end]);
     picture.frame.push_back(system.problem->frame_of_moment(row, system.degree, j));
+    picture.piece.push_back(pieces.of_vertex[start]);
   }
   if (has_own_points)
     take_forces(contact, solution, picture);

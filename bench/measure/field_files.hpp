@@ -5,7 +5,9 @@
 //   NAME.displacement.csv  triangle, node, x_mm, y_mm, ux_mm, uy_mm; six rows per triangle: its
 //                     corners, then the middles of edges 12, 23, 31; quadratic, continuous
 //   NAME.contact.csv  x_mm, y_mm, normal_x, normal_y, edge_length_mm, F_n_N, F_t_N, gap_mm,
-//                     slip_mm, state (open, stick, slip); a row per contact point (ContactPicture)
+//                     slip_mm, opposite (row of the other body's point, from 1), piece (of the
+//                     mesh, from 1), state (open, stick, slip); a row per contact point
+//                     (ContactPicture)
 //   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, rolls (0 or 1), the tractions given on Γ_F at
 //                     both ends t0_x_MPa, t0_y_MPa, t1_x_MPa, t1_y_MPa, and role
 //   NAME.error.csv    triangle, error_share: 0 to 1, of the squared constitutive relation error,
@@ -42,6 +44,7 @@ struct ContactPicture {
   std::vector<double> slip_mm;  // u_t against the wall; empty if unknown
   std::size_t per_edge = 2;
   std::vector<int> opposite;  // ContactPoints::opposite
+  std::vector<int> piece;     // of the mesh (MeshPieces) that the point is on, from 0
 };
 
 // For a displacement method: the tractions of its stresses, the states of its control points. w:

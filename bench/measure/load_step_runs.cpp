@@ -51,6 +51,7 @@ void take_step(bool is_first, const std::string& prefix, const Solution& step, S
     path.program = step.program;
     path.program->wall_s += before.wall_s;
     path.program->processor_s += before.processor_s;
+    path.program->solve_s += before.solve_s;
     path.program->not_solve_s += before.not_solve_s;
     path.program->peak_bytes = std::max(step.program->peak_bytes, before.peak_bytes);
   }
@@ -165,6 +166,7 @@ Json steps_of(const std::vector<JudgedStep>& steps) {
                     {"n_open", or_null(v.n_open)},
                     {"n_stick", or_null(v.n_stick)},
                     {"n_slip", or_null(v.n_slip)},
+                    {"strain_energy_Nmm", v.strain_energy_Nmm},
                     {"dissipation_Nmm", step.dissipation_Nmm}});
   }
   return list;

@@ -35,6 +35,7 @@ struct TimedRun {
   std::string signal, ended_in;           // see record_fields.def
   double runs_s = 0;                      // of all runs of the case so far
   double program_s = 0, processor_s = 0;  // of an external program, from start to end
+  double program_solve_s = 0;             // of its solve, by its own clock
 };
 Json to_json(const TimedRun& run);
 TimedRun timed_run_of(const Json& json);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <functional>
+#include <tuple>
 
 #include "support/atomic_file.hpp"
 
@@ -15,19 +17,13 @@ namespace fs = std::filesystem;
 
 constexpr auto series_ends = {".pvd", ".contact.pvd", ".steps.csv"};
 
-bool is_loaded(const Loads& loads, const Mesh& mesh, int row) {
-  const auto [start, end] = mesh.boundary[row].vertices;
-  const Eigen::Vector2d &a = mesh.vertices[start], &b = mesh.vertices[end];
-  const Eigen::Vector2d normal = edge_frame(a, b).normal;
-  return loads.traction_MPa && !(loads.traction_MPa(a, normal, row).isZero(0) &&
-                                 loads.traction_MPa(b, normal, row).isZero(0));
-}
+using LoadsOfSteps = std::array<Eigen::MatrixXd, 4>;
 
-// A column per step: displacements of Γ_D, tractions of Γ_F, gaps of Γ_C, at the ends of their
-// edges, and the body force.
-std::array<Eigen::MatrixXd, 4> loads_of_steps(const Problem& first) {
+// A column per step: displacements of Γ_D, of rollers their normal part, tractions of Γ_F, gaps of
+// Γ_C, at the ends of their edges, and the body force.
+LoadsOfSteps loads_of_steps(const Problem& first) {
   const Mesh& mesh = first.mesh;
-  std::array<Eigen::MatrixXd, 4> all;
+  LoadsOfSteps all;
   const auto ends = 4 * static_cast<Eigen::Index>(mesh.boundary.size());
   for (Eigen::MatrixXd& kind : all) kind.setZero(ends, count_of_steps(first));
   const auto take = [&](const Loads& loads, const RigidMotion& motion, int step) {
@@ -39,8 +35,10 @@ std::array<Eigen::MatrixXd, 4> loads_of_steps(const Problem& first) {
       const Eigen::Vector2d &a = mesh.vertices[start], &b = mesh.vertices[end];
       const Eigen::Vector2d& x = at % 4 == 0 ? a : b;
       if (role == BoundaryRole::displacement) {
-        all[0].col(step).segment<2>(at) = motion.at(x);
-        if (loads.displacement_mm) all[0].col(step).segment<2>(at) += loads.displacement_mm(x, row);
+        Eigen::Vector2d u = motion.at(x);
+        if (loads.displacement_mm) u += loads.displacement_mm(x, row);
+        const Eigen::Vector2d normal = edge_frame(a, b).normal;
+        all[0].col(step).segment<2>(at) = first.is_roller(row) ? normal.dot(u) * normal : u;
       } else if (role == BoundaryRole::force && loads.traction_MPa) {
         all[1].col(step).segment<2>(at) = loads.traction_MPa(x, edge_frame(a, b).normal, row);
       } else if (role == BoundaryRole::contact && loads.gap_mm) {
@@ -54,12 +52,12 @@ std::array<Eigen::MatrixXd, 4> loads_of_steps(const Problem& first) {
   return all;
 }
 
+constexpr double rounding = 1e-9;  // of the largest of a kind of loads
+
 // Per step the first one, from 0, with its loads; roundings aside.
-std::vector<int> first_with_loads(const Problem& problem) {
-  constexpr double rounding = 1e-9;  // of the largest of a kind
-  const std::array<Eigen::MatrixXd, 4> loads = loads_of_steps(problem);
+std::vector<int> first_with_loads(const LoadsOfSteps& loads) {
   std::vector<int> first;
-  for (int step = 0; step < count_of_steps(problem); ++step) {
+  for (int step = 0; step < loads[0].cols(); ++step) {
     const auto is_like = [&](int other) {
       return std::ranges::all_of(loads, [&](const Eigen::MatrixXd& kind) {
         return (kind.col(step) - kind.col(other)).lpNorm<Eigen::Infinity>() <=
@@ -71,6 +69,44 @@ std::vector<int> first_with_loads(const Problem& problem) {
     first.push_back(like);
   }
   return first;
+}
+
+// The piece that the path moves (see step_fields.hpp), and its rows that are held and loaded.
+std::tuple<int, std::vector<int>, std::vector<int>> moved_piece(const Mesh& mesh,
+                                                                const LoadsOfSteps& loads) {
+  const auto rows_where = [&](const auto& is_chosen) {
+    std::vector<int> rows;
+    for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
+      if (is_chosen(row)) rows.push_back(row);
+    return rows;
+  };
+  const auto rows_with = [&](BoundaryRole role) {
+    return rows_where([&](int row) { return mesh.boundary[row].role == role; });
+  };
+  const auto largest = [](const Eigen::MatrixXd& kind, int row) {
+    return kind.middleRows<4>(4 * Eigen::Index{row}).lpNorm<Eigen::Infinity>();
+  };
+  const auto rows_under = [&](const Eigen::MatrixXd& kind) {
+    const double least = rounding * kind.lpNorm<Eigen::Infinity>();
+    return rows_where([&](int row) { return largest(kind, row) > least; });
+  };
+  std::vector<int> held = rows_under(loads[0]), loaded = rows_under(loads[1]);
+  std::ranges::stable_sort(held, std::ranges::greater(),
+                           [&](int row) { return largest(loads[0], row); });
+  const MeshPieces pieces = pieces_of(mesh);
+  const auto piece_of = [&](int row) { return pieces.of_vertex[mesh.boundary[row].vertices[0]]; };
+  const std::vector<int> touching = rows_with(BoundaryRole::contact);
+  const auto touches = [&](int row) {
+    return std::ranges::find(touching, piece_of(row), piece_of) != touching.end();
+  };
+  int piece = 0;
+  for (const auto& rows : {touching, loaded, held})
+    if (const auto row = std::ranges::find_if(rows, touches); row != rows.end())
+      piece = piece_of(*row);
+  if (held.empty()) held = rows_with(BoundaryRole::displacement);
+  for (std::vector<int>* rows : {&held, &loaded})
+    std::erase_if(*rows, [&](int row) { return piece_of(row) != piece; });
+  return {piece, held, loaded};
 }
 
 // "x,y", or "," if unknown.
@@ -136,19 +172,11 @@ StepFields::StepFields(fs::path folder, std::string name, const Problem& first)
       count_(count_of_steps(first)),
       table_(
           "step,normal_resultant_N,tangential_resultant_N,dissipation_Nmm,n_open,n_stick,n_slip,"
-          "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,same_loads_as,fields\n"),
-      first_with_loads_(first_with_loads(first)) {
+          "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,piece,same_loads_as,fields\n") {
   remove_step_fields(folder_, name_);
-  const Mesh& mesh = first.mesh;
-  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
-    const BoundaryRole role = mesh.boundary[row].role;
-    if (role == BoundaryRole::displacement) held_.push_back(row);
-    if (role == BoundaryRole::force &&
-        (is_loaded(first.loads, mesh, row) ||
-         std::ranges::any_of(first.later_steps,
-                             [&](const Loads& step) { return is_loaded(step, mesh, row); })))
-      loaded_.push_back(row);
-  }
+  const LoadsOfSteps loads = loads_of_steps(first);
+  first_with_loads_ = first_with_loads(loads);
+  std::tie(piece_, held_, loaded_) = moved_piece(first.mesh, loads);
 }
 
 std::string StepFields::write(int step, const SolvedFields& fields, const JudgedStep& judged) {
@@ -164,11 +192,11 @@ std::string StepFields::write(int step, const SolvedFields& fields, const Judged
   contact_series_ += data_set(".contact.vtu");
   const Problem& problem = *fields.system.problem;
   const Verification& v = judged.seen();
-  table_ +=
-      fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", step + 1, or_empty(v.normal_resultant_N),
-                  or_empty(v.tangential_resultant_N), judged.dissipation_Nmm, or_empty(v.n_open),
-                  or_empty(v.n_stick), or_empty(v.n_slip), mean_on(held_, problem, fields.w),
-                  mean_on(loaded_, problem, fields.w), first_with_loads_[step] + 1, word);
+  table_ += fmt::format(
+      "{},{},{},{},{},{},{},{},{},{},{},{}\n", step + 1, or_empty(v.normal_resultant_N),
+      or_empty(v.tangential_resultant_N), judged.dissipation_Nmm, or_empty(v.n_open),
+      or_empty(v.n_stick), or_empty(v.n_slip), mean_on(held_, problem, fields.w),
+      mean_on(loaded_, problem, fields.w), piece_ + 1, first_with_loads_[step] + 1, word);
   write_file_atomically(folder_ / (name_ + ".pvd"), pvd_text(series_));
   write_file_atomically(folder_ / (name_ + ".contact.pvd"), pvd_text(contact_series_));
   write_file_atomically(folder_ / (name_ + ".steps.csv"), table_);

@@ -5,10 +5,12 @@
 //                      others have those of the contact points
 //   NAME.pvd, NAME.contact.pvd  ParaView's series of their .vtu; the time is the number of the step
 //   NAME.steps.csv     step, normal_resultant_N, tangential_resultant_N, dissipation_Nmm, n_open,
-//                      n_stick, n_slip, held_x_mm, held_y_mm, loaded_x_mm, loaded_y_mm,
+//                      n_stick, n_slip, held_x_mm, held_y_mm, loaded_x_mm, loaded_y_mm, piece,
 //                      same_loads_as, fields
 //
-// held, loaded: mean displacement of Γ_D, and of the edges of Γ_F with a traction in any step;
+// piece: of the mesh, from 1, with contact, that the path moves: the one whose supports are moved
+// farthest, else the first with a traction, else the first. held, loaded: mean displacement of its
+// supports that are moved, of all if none is, and of its edges of Γ_F with a traction in any step;
 // empty if unknown. same_loads_as: the first step with the loads, prescribed displacements and gaps
 // of this one, itself if they are new. fields: body or contact. Series and table are replaced after
 // each step, when its files are complete: a killed process leaves those of the steps so far.
@@ -42,6 +44,7 @@ class StepFields {
   std::filesystem::path folder_;
   std::string name_;
   int count_;
+  int piece_ = 0;                   // from 0
   std::vector<int> held_, loaded_;  // rows of Mesh::boundary
   std::string series_, contact_series_, table_;
   std::vector<int> first_with_loads_;  // per step, from 0

@@ -322,6 +322,7 @@ TimedRun Workbench::timed(const Run& run) {
       result.stages[std::string(name_of(stage))] = *seconds;
   if (const auto& program = run.solution.program) {
     result.program_s = program->wall_s;
+    result.program_solve_s = program->solve_s;
     result.processor_s = program->processor_s;
   }
   return result;

@@ -18,16 +18,19 @@ inline constexpr int most_unknowns = 1'000'000;      // rows of M
 // d rows of W, columns of H, per contact.
 void check_rows(int rows, int dimension, const std::string& place, const Refuse& refuse);
 
+// μ: 0 to 1e6.
 ContactPoints points_of(int dimension, const Eigen::VectorXd& mu, const std::string& place,
                         const Refuse& refuse);
 
 // u = W r + q. W must have positive diagonal entries, and be symmetric to 1 % of the largest; what
-// differs is kept. place: of W.
+// differs is kept. The diagonal and the largest of q (unless it is 0) must be 1e-50 to 1e50, other
+// entries of W up to 1e50. place: of W.
 contact::Problem local_problem(SparseRows W, Eigen::VectorXd q, ContactPoints points,
                                const std::string& place, const Refuse& refuse);
 
 // M v = H r + f, u = Hᵀ v + w: condensed (solvers/condensation/global_problem.hpp). M, which counts
-// as symmetric where W does, must be positive definite, and every column of H move something.
+// as symmetric where W does, must be positive definite, and every column of H move something. W
+// and q have the range of local problems.
 struct GlobalArrays {
   Eigen::SparseMatrix<double> M, H;
   Eigen::VectorXd f, w;

@@ -36,6 +36,7 @@ void summarise_times(Record& r) {
   r.assembly_s = median_of(r.assembly_samples_s);
   r.program_s = median_of(r.program_samples_s);
   r.processor_s = median_of(r.processor_samples_s);
+  r.program_solve_s = median_of(r.program_solve_samples_s);
   r.noise_kernel_s = median_of(r.noise_kernel_samples_s);
   r.busy_kernel_s = median_of(r.busy_kernel_samples_s);
 }

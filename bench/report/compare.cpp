@@ -28,11 +28,20 @@ const Record& telling(const RecordList& runs) {
   return broken == runs.end() ? *runs.back() : **broken;
 }
 
-std::vector<double> medians_of(const RecordList& runs) {
+constexpr const char* own_time = "program_solve_s";
+
+// Of a program its own solve, unless a run does not have it: an older record.
+bool has_own_time(const RecordList& runs) {
+  return std::ranges::all_of(runs, [](const Record* record) {
+    return record->samples_s.empty() || !record->program_solve_samples_s.empty();
+  });
+}
+
+std::vector<double> medians_of(const RecordList& runs, std::vector<double> Record::*samples) {
   std::vector<double> medians;
   for (const Record* record : runs)
-    if (has_answer(record->status) && !record->samples_s.empty())
-      medians.push_back(median(record->samples_s));
+    if (has_answer(record->status) && !(record->*samples).empty())
+      medians.push_back(median(record->*samples));
   return medians;
 }
 
@@ -125,15 +134,20 @@ Json interval_json(const std::optional<Interval>& interval) {
   return interval ? Json{interval->low, interval->high} : Json();
 }
 
+bool is_own_time(const ComparedCase& one) { return one.time == std::string_view(own_time); }
+
+// The column `time` is there where a case is a program's.
 std::vector<std::vector<std::string>> table_of(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows = {
-      {"case", "A", "B", "B/A", "95 %", "/drift", "p", "verdict"}};
+      {"case", "time", "A", "B", "B/A", "95 %", "/drift", "p", "verdict"}};
   for (const ComparedCase& one : comparison.cases) {
     std::vector<std::string>& row = rows.emplace_back(rows.front().size());
-    row.front() = name_of(one.a).text();
+    row[0] = name_of(one.a).text();
+    row[1] = is_own_time(one) ? "program's own solve" : "whole solve";
     row.back() = fmt::format("no times: {}, {}", name_of(one.a.status), name_of(one.b.status));
     if (one.is_timed())
-      row = {row.front(),
+      row = {row[0],
+             row[1],
              show_seconds(median(one.medians_a)),
              show_seconds(median(one.medians_b)),
              fmt::format("{:.3g}", one.ratio),
@@ -142,6 +156,8 @@ std::vector<std::vector<std::string>> table_of(const Comparison& comparison) {
              fmt::format("{:.2g}", one.p),
              std::string(name_of(one.verdict))};
   }
+  if (std::ranges::none_of(comparison.cases, is_own_time))
+    for (std::vector<std::string>& row : rows) row.erase(row.begin() + 1);
   return rows;
 }
 
@@ -221,8 +237,11 @@ Comparison compare(const Runs& a, const Runs& b, const CompareRules& rules) {
     ComparedCase& one = result.cases.emplace_back();
     one.a = telling(runs.a);
     one.b = telling(runs.b);
-    one.medians_a = medians_of(runs.a);
-    one.medians_b = medians_of(runs.b);
+    const bool is_program = !one.a.program.empty() && has_own_time(runs.a) && has_own_time(runs.b);
+    const auto samples = is_program ? &Record::program_solve_samples_s : &Record::samples_s;
+    if (is_program) one.time = own_time;
+    one.medians_a = medians_of(runs.a, samples);
+    one.medians_b = medians_of(runs.b, samples);
     one.interleaved = are_interleaved(runs);
     const double drift = kernel_time(runs.b) / kernel_time(runs.a);
     if (!std::isnan(drift)) drifts.push_back(drift);
@@ -260,10 +279,12 @@ std::string Comparison::text() const {
 }
 
 std::string Comparison::markdown() const {
+  const std::vector<std::vector<std::string>> rows = table_of(*this);
   std::vector<std::string> lines;
-  for (const auto& row : table_of(*this))
-    lines.push_back(fmt::format("| {} |", fmt::join(row, " | ")));
-  lines.insert(lines.begin() + 1, "|---|---|---|---|---|---|---|---|");
+  for (const auto& row : rows) lines.push_back(fmt::format("| {} |", fmt::join(row, " | ")));
+  std::string rule = "|";
+  for (std::size_t k = 0; k < rows.front().size(); ++k) rule += "---|";
+  lines.insert(lines.begin() + 1, rule);
   return fmt::format("{}\n\n- {}\n", fmt::join(lines, "\n"), fmt::join(summary(*this), "\n- "));
 }
 
@@ -275,7 +296,8 @@ Json Comparison::json() const {
                  {"status_b", name_of(one.b.status)},
                  {"other_changes", other_changes(one)}};
     if (one.is_timed())
-      json.update(Json{{"medians_a_s", one.medians_a},
+      json.update(Json{{"time", one.time},
+                       {"medians_a_s", one.medians_a},
                        {"medians_b_s", one.medians_b},
                        {"ratio", one.ratio},
                        {"interval", interval_json(one.interval)},

@@ -1,6 +1,7 @@
 // Compares two programs, each run several times on the same cases. The unit is the run, because
 // repetitions share clock, load and memory layout: each run gives one value per case, the median of
-// its repetitions.
+// its repetitions. Cases of EXTERNAL: methods are judged by the program's own solve, without what
+// is ours.
 //
 //   per case   ratio = median over B's runs / median over A's, with a 95 % bootstrap interval
 //              p: Mann-Whitney test of B's runs against A's, Holm's adjustment over all cases
@@ -44,6 +45,7 @@ std::string_view name_of(TimeVerdict verdict);  // "not separated: one run each"
 struct ComparedCase {
   Record a, b;                               // the side's first run that is not ok, else its last
   std::vector<double> medians_a, medians_b;  // s, of runs with an answer and samples
+  const char* time = "time_s";               // the field that they are of, or program_solve_s
   bool interleaved = false;
   double ratio = 1;                  // raw; like what follows, only if is_timed()
   double corrected = 1;              // ratio / drift

@@ -162,11 +162,33 @@ void ResultsTable::add(const Record& r) {
   rows_.push_back(std::move(row));
   if (r.precision && !r.precision_reached && r.time_s) imprecise_ += imprecise_line(r);
   if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) noisy_ += noisy_line(r);
-  if (r.status != Status::ok)
-    reasons_ += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);
-  else if (const std::string line = fmt::format("{}/{}: {}\n", r.mesh, r.scene, r.status_reason);
-           !r.status_reason.empty() && !r.other_solution && said_.insert(line).second)
-    reasons_ += line;
+  if (r.status != Status::ok) {
+    reasons_.push_back(
+        {"", name_of(r).text(), fmt::format("{}: {}", name_of(r.status), r.status_reason)});
+  } else if (!r.status_reason.empty() && !r.other_solution) {
+    const Reason remark = {r.mesh + "/" + r.scene, name_of(r).text(), r.status_reason};
+    const auto same = std::ranges::find_if(reasons_, [&](const Reason& other) {
+      return other.scene == remark.scene && other.text == remark.text;
+    });
+    if (same == reasons_.end())
+      reasons_.push_back(remark);
+    else
+      ++same->more_cases;
+  }
+}
+
+// A remark names its scene, or its first case where others of the scene have another remark.
+std::string ResultsTable::reasons() const {
+  std::map<std::string, int> remarks;  // of each scene
+  for (const Reason& reason : reasons_) ++remarks[reason.scene];
+  std::string lines;
+  for (const auto& [scene, case_name, text, more_cases] : reasons_)
+    if (!scene.empty() && remarks[scene] == 1)
+      lines += fmt::format("{}: {}\n", scene, text);
+    else
+      lines += fmt::format("{}{}: {}\n", case_name,
+                           more_cases > 0 ? fmt::format(" and {} more", more_cases) : "", text);
+  return lines;
 }
 
 std::string ResultsTable::text() const {
@@ -182,7 +204,7 @@ std::string ResultsTable::text() const {
           filled_.include(column))
         shown.back().push_back(cell);
   }
-  return aligned_table(shown, 1) + imprecise_ + noisy_ + reasons_;
+  return aligned_table(shown, 1) + imprecise_ + noisy_ + reasons();
 }
 
 namespace {

@@ -32,8 +32,15 @@ class ResultsTable {
  private:
   std::vector<std::string> rows_;  // the cells of all columns, each ended by a tab
   FilledColumns filled_;
-  std::string imprecise_, noisy_, reasons_;
-  std::set<std::string> said_;  // reasons that all methods on a mesh share
+  std::string imprecise_, noisy_;
+  // Why a case is not ok, or a remark on one that is, which other cases of its scene may share.
+  struct Reason {
+    std::string scene;  // of a remark: "Mesh0/default"
+    std::string case_name, text;
+    int more_cases = 0;  // of the same remark
+  };
+  std::vector<Reason> reasons_;
+  std::string reasons() const;
 };
 
 // The same cases for a paper: a column has one unit, in its header; no remarks.

@@ -109,9 +109,16 @@ void compare_contexts(const TrackedRun& before, const TrackedRun& now,
       changes);
 }
 
+// The field whose level is judged. Nights before programs had theirs do not count for them: another
+// time is no change of level.
+const char* judged_time(const Record& record) {
+  return record.program.empty() ? "time_s" : "program_solve_s";
+}
+
 double log_time(const Record* record) {
-  const bool has_time = record != nullptr && has_answer(record->status) && record->time_s;
-  return has_time ? std::log(*record->time_s) : std::nan("");
+  if (record == nullptr || !has_answer(record->status)) return std::nan("");
+  const std::optional<double> time_s = number_in(*record, field_named(judged_time(*record)));
+  return time_s ? std::log(*time_s) : std::nan("");
 }
 
 // First run after the last reported change of the case's time.
@@ -160,15 +167,18 @@ Finding finding_of(const TimeChange& change, const TimeTable& table,
   finding.high = std::exp(change.high);
   if (change.series) {
     const std::vector<double>& series = table.log_times[*change.series];
-    finding.case_name = name_of(runs.back().cases[*change.series]).text();
+    const Record& now = runs.back().cases[*change.series];
+    finding.case_name = name_of(now).text();
+    finding.quantity = judged_time(now);
     finding.before = median_time(series, table.starts[*change.series], change.first);
     finding.after = median_time(series, change.first, series.size());
   }
   const bool by_kernel = !change.series || table.log_times.size() < least_cases;
   finding.sentence = fmt::format(
-      "{}: {} since {}: {:.3g} times the time before (95 %: {:.3g} to {:.3g}), against the {}.",
-      finding.case_name, finding.kind == Kind::worse ? "slower" : "faster", finding.since,
-      *finding.ratio, *finding.low, *finding.high, by_kernel ? "reference kernel" : "other cases");
+      "{}: {}{} since {}: {:.3g} times the time before (95 %: {:.3g} to {:.3g}), against the {}.",
+      finding.case_name, finding.quantity == "time_s" ? "" : "the program's own solve is ",
+      finding.kind == Kind::worse ? "slower" : "faster", finding.since, *finding.ratio,
+      *finding.low, *finding.high, by_kernel ? "reference kernel" : "other cases");
   return finding;
 }
 

@@ -1,5 +1,5 @@
 // Compares the newest run of a history with earlier ones of the same machine. Times scatter: they
-// are searched for changes of level (track_times.hpp).
+// are searched for changes of level (track_times.hpp), those of programs in their own solve.
 //
 //   status     ok → anything else is worse
 //   counters   any growth is worse. Heap figures and instructions depend on the libraries: only

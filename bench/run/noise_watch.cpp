@@ -64,9 +64,9 @@ double noise_of(const std::vector<double>& passes_s, double quiet_s) {
 }
 
 void swap_samples(Record& a, Record& b) {
-  for (const auto samples :
-       {&Record::samples_s, &Record::program_samples_s, &Record::processor_samples_s,
-        &Record::noise_kernel_samples_s, &Record::busy_kernel_samples_s})
+  for (const auto samples : {&Record::samples_s, &Record::program_samples_s,
+                             &Record::processor_samples_s, &Record::program_solve_samples_s,
+                             &Record::noise_kernel_samples_s, &Record::busy_kernel_samples_s})
     std::swap(a.*samples, b.*samples);
   std::swap(a.stage_samples, b.stage_samples);
 }

@@ -37,6 +37,7 @@ struct IterationHistory {
 struct ProgramRun {
   double wall_s = 0;            // from its start to its end
   double processor_s = 0;       // the same, of all its threads and processes
+  double solve_s = 0;           // its solve, by its own clock
   double not_solve_s = 0;       // part of our time that its own clock leaves out: start-up, files
   std::int64_t peak_bytes = 0;  // resident, of it and its child processes
   double print_precision = 0;   // largest relative rounding of its numbers; 0: of doubles

@@ -108,9 +108,20 @@ TEST(Scene, ContradictionsAndImpossibleValuesAreNamed) {
   EXPECT_EQ(with([](Scene& s) { s.material.poisson = 0.5; }),
             "default scene: poisson: 0.5 (allowed: between -1 and 0.5, both excluded)");
   EXPECT_EQ(with([](Scene& s) { s.material.young_MPa = 0; }),
-            "default scene: young_MPa: 0 (allowed: > 0)");
+            "default scene: young_MPa: 0 (allowed: 1e-30 to 1e30)");
   EXPECT_EQ(with([](Scene& s) { s.friction = -0.1; }),
-            "default scene: friction: -0.1 (allowed: >= 0)");
+            "default scene: friction: -0.1 (allowed: 0 to 1e6)");
+  EXPECT_EQ(with([](Scene& s) { s.friction = 1e308; }),
+            "default scene: friction: 1e+308 (allowed: 0 to 1e6)");
+  EXPECT_EQ(with([](Scene& s) { s.boundary["contact"].contact.friction = 1e308; }),
+            "default scene: boundary: contact: friction: 1e+308 (allowed: 0 to 1e6)");
+  EXPECT_EQ(with([](Scene& s) { s.material.young_MPa = 2.1e-303; }),
+            "default scene: young_MPa: 2.1e-303 (allowed: 1e-30 to 1e30)");
+  for (const double u : {1e-200, 1e200}) {
+    const std::string said = with([&](Scene& s) { s.displacement_mm = {u, 0}; });
+    EXPECT_EQ(said.find("default scene: loads: forces of about "), 0u) << said;
+    EXPECT_TRUE(said.ends_with(" N (allowed: none, or 1e-100 to 1e100 N)")) << said;
+  }
   EXPECT_EQ(with([](Scene& s) { s.crown_radius_mm = -1; }),
             "default scene: crown_radius_mm: -1 (allowed: > 0, or null for a wall on the edges)");
   EXPECT_EQ(with([](Scene& s) { s.clearance_mm = -1; }),

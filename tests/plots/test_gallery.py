@@ -52,8 +52,8 @@ def write_solution(folder: Path, name: str, contact: bool = True,
     edges = [(*corners[k], *corners[(k + 1) % 4], 0, *(0, -3) * 2, role) if role == "force" else
              (*corners[k], *corners[(k + 1) % 4], 0, *[0] * 4, role) for k, role in enumerate(roles)]
     (x, y), (_, end) = corners[1:3]
-    points = [f"{x},{y},1,0,{end - y},-30,-6,0,0.01,,slip",
-              f"{x},{end},1,0,{end - y},0,0,0.02,,,open"] if contact else []
+    points = [f"{x},{y},1,0,{end - y},-30,-6,0,0.01,,1,slip",
+              f"{x},{end},1,0,{end - y},0,0,0.02,,,1,open"] if contact else []
     for part, lines in (("stress", rows), ("contact", [fields.CONTACT, *points]),
                         ("boundary", [fields.BOUNDARY, *(",".join(map(str, e)) for e in edges)])):
         (folder / f"{name}.{part}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")

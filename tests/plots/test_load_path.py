@@ -37,11 +37,47 @@ def write_path(results: Path, bodies: tuple[bool, ...] = (True,) * 6) -> None:
         body = bodies[k - 1]
         write_solution(steps, f"{k:04}", corners=LOW)
         state = "stick" if k % 2 else "slip"
-        points = [f"0.125,{y},1,0,2,-30,{force / 2},0,0,,{state}" for y in (0, 2)]
+        points = [f"0.125,{y},1,0,2,-30,{force / 2},0,0,,1,{state}" for y in (0, 2)]
         (steps / f"{k:04}.contact.csv").write_text("\n".join([fields.CONTACT, *points]) + "\n")
-        rows.append(f"{k},-60,{force},{lost},0,2,0,0,{moved / 1000},,,{LOADS[k - 1]},"
+        rows.append(f"{k},-60,{force},{lost},0,2,0,0,{moved / 1000},,,1,{LOADS[k - 1]},"
                     f"{'body' if body else 'contact'}")
     (folder / f"{NAME}.steps.csv").write_text("\n".join(rows) + "\n")
+
+
+# Two edges of each of two bodies, from 0 to 2 on y = 0, in an order in which of two opposite points now
+# one body's comes first, now the other's. Piece 1 is above.
+PAIR = ((1, 0, 1, (6, 5)), (2, 2, 1, (8, 7)), (2, 1, 0, (2, 1)), (1, 1, 2, (4, 3)))
+
+
+def write_pair(results: Path, moved: int, states: tuple[str, ...] = ("stick", "slip")) -> None:
+    """At each point 10 N and 3 N, of the second step; the first has half of that."""
+    steps = results / "fields" / f"{NAME}.steps"
+    steps.mkdir(parents=True)
+    rows = [load_path.STEPS]
+    for k, state in enumerate(states, 1):
+        points = [f"{x},0,0,{-1 if piece == 1 else 1},1,{-5 * k},{1.5 * k},0,0,{opposite},{piece},{state}"
+                  for piece, start, end, others in PAIR for x, opposite in zip((start, end), others)]
+        (steps / f"{k:04}.contact.csv").write_text("\n".join([fields.CONTACT, *points]) + "\n")
+        rows.append(f"{k},{-20 * k},{6 * k},0,0,2,2,{0.001 * k},0,,,{moved},{k},contact")
+    (results / "fields" / f"{NAME}.steps.csv").write_text("\n".join(rows) + "\n")
+
+
+class PairTest(FolderTest):
+    program = gallery
+
+    def test_the_force_is_that_of_the_body_that_is_moved(self) -> None:
+        for moved in (1, 2):  # a tangent turns with its body
+            with self.subTest(moved):
+                write_pair(self.results / str(moved), moved)
+                path = load_path.read_path(self.results / str(moved), NAME)
+                np.testing.assert_allclose(path.push, [-6, -12])
+                np.testing.assert_allclose(path.normal, [20, 40])
+                np.testing.assert_allclose(path.moved, [-0.001, -0.002] if moved == 2 else [0.001, 0.002])
+                self.assertEqual((path.obstacle, path.faces), ("other body", 1))
+                self.assertEqual(path.state.shape, (2, 4))
+                words = drawn.words_of(load_path_drawing.draw_path(path)).replace("\n", " ")
+                self.assertIn("force Q of the body along the other body over the mean displacement of its "
+                              "held boundary", words)
 
 
 class LoadPathTest(FolderTest):
@@ -125,9 +161,30 @@ class LoadPathTest(FolderTest):
 
     def test_a_table_of_an_earlier_bench_has_no_loop(self) -> None:
         table = self.results / "fields" / f"{NAME}.steps.csv"
-        table.write_text("\n".join(",".join(cells[:11] + cells[12:]) for cells in
-                                   (line.split(",") for line in table.read_text().splitlines())) + "\n")
-        self.assertIsNone(load_path.read_path(self.results, NAME).cycle)
+        lines = [line.split(",") for line in table.read_text().splitlines()]
+        for left_out, cycle in ((1, slice(1, 6)), (2, None)):  # without the piece; without returns, too
+            table.write_text("\n".join(",".join(line[:11] + line[11 + left_out:]) for line in lines) + "\n")
+            for points in (self.results / "fields" / f"{NAME}.steps").glob("*.contact.csv"):
+                points.write_text(points.read_text().replace("piece,", "").replace(",,1,", ",,"))
+            path = load_path.read_path(self.results, NAME)
+            self.assertEqual(path.cycle, cycle)
+            np.testing.assert_allclose(path.push, np.negative(FORCE_N))
+
+    def test_a_path_that_ends_unloaded_is_stood_for_by_its_most_loaded_step(self) -> None:
+        points = self.results / "fields" / f"{NAME}.steps"
+        for step, pressed in ((3, 40), (6, 0)):
+            file = points / f"{step:04}.contact.csv"
+            file.write_text(file.read_text().replace(",-30,", f",-{pressed},").replace(",-3.0,", ",0,"))
+        path = load_path.read_path(self.results, NAME)
+        self.assertEqual(path.telling_step, 2)
+        self.assertEqual(replace(path, has_body=path.step != 3).telling_step, 1)
+        s = gallery.read_telling(self.results, NAME, {}, path)
+        self.assertEqual((s.name, s.traction[0, 0, 0]), (NAME, -40))
+        words = drawn.words_of(gallery.compose([[s]]))
+        self.assertIn("Load step 3 of 6, the most loaded one: the last one is unloaded.", words)
+        loaded = replace(path, pressed=np.ones(6))
+        self.assertEqual(loaded.telling_step, 5)
+        self.assertEqual(gallery.read_telling(self.results, NAME, {}, loaded).of_step, "")
 
     def test_the_picture_and_its_table(self) -> None:
         status, out, err = run(gallery, self.results)

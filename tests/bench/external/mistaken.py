@@ -1,8 +1,11 @@
 """A contact program with a mistake:  mistaken.py MISTAKE INPUT OUTPUT  (RIGHT: none)
 
+MISTAKE sweeps=N: it ends after N sweeps, whatever is left, and says ok.
+
 Projected Gauss-Seidel on the condensed problem, in the format npz.
 """
 import json
+import os
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -14,10 +17,11 @@ if mistake == "CRASH":
     sys.exit(3)
 
 
-def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False, sticks=False):
-    """F with r = D F + b; None: no convergence."""
+def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False, sticks=False, pulled=None):
+    """F with r = D F + b; None: no convergence. pulled: limit of |F_t| where F_n > 0."""
     components, F = len(b) // len(mu), np.zeros(len(b))
-    for _ in range(50000):
+    fixed = int(mistake.removeprefix("sweeps=")) if mistake.startswith("sweeps=") else 0
+    for _ in range(fixed or 50000):
         before = F.copy()
         for p, friction in enumerate(mu):
             n = components * p
@@ -28,14 +32,16 @@ def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False, sticks=False):
                 most = friction if box else friction * abs(F[n])
                 if sticks and F[n] < 0:
                     most = np.inf
+                if pulled is not None and F[n] > 0:
+                    most = pulled
                 F[n + 1] = np.clip(F[n + 1] - (D[n + 1] @ F + b[n + 1]) / D[n + 1, n + 1], -most, most)
         change = np.linalg.norm(F - before)
-        if change <= (tolerance if absolute else tolerance * np.linalg.norm(F)):
+        if not fixed and change <= (tolerance if absolute else tolerance * np.linalg.norm(F)):
             return F
-    return None
+    return F if fixed else None
 
 
-def answer(D, G, gap, mu):
+def forces(D, G, gap, mu):
     components = len(G) // len(mu)
     if mistake == "always_two_components" and components == 1:
         return np.zeros(2 * len(mu))
@@ -49,8 +55,9 @@ def answer(D, G, gap, mu):
     if mistake == "unlike_any":
         mu = 0.9 * mu
     F = sweeps(D, b, mu, 1e-7 if mistake == "absolute_tolerance" else 1e-12,
-               mistake == "absolute_tolerance", mistake != "tension", mistake == "box",
-               mistake == "no_cone")
+               mistake == "absolute_tolerance", not mistake.startswith("tension"),
+               mistake == "box", mistake == "no_cone",
+               {"tension_slips": 0, "tension_sticks": np.inf}.get(mistake))
     if F is None:
         return np.zeros(len(b)) if mistake == "always_ok" else None
     if mistake == "sign_of_tangent" and components == 2:
@@ -62,8 +69,20 @@ def answer(D, G, gap, mu):
 
 problem = np.load(Path(folder, "problem.npz"))
 start = perf_counter()
-found = answer(*(problem[name] for name in ("D", "G", "gap", "mu")))
+found = forces(*(problem[name] for name in ("D", "G", "gap", "mu")))
 report = {"status": "not_converged" if found is None else "ok", "time_s": perf_counter() - start}
 if found is not None:
     np.save(Path(output, "F_C.npy"), found.reshape(-1, 1))
-Path(output, "answer.json").write_text(json.dumps(report))
+answer = Path(output, "answer.json")
+text = json.dumps(report)
+if mistake == "FIFO":
+    os.mkfifo(answer)
+elif mistake == "LINK":
+    Path(output, "elsewhere.json").write_text(text)
+    answer.symlink_to("elsewhere.json")
+elif mistake == "LARGE":
+    answer.write_text(text + " " * (20 << 20))
+elif mistake == "DEEP":
+    answer.write_text("[" * 100000)
+elif mistake != "SILENT":
+    answer.write_text(text)

@@ -82,6 +82,36 @@ class Check(unittest.TestCase):
                 _, _, out = self.check(mistake)
                 self.assertIn(f"all its answers look like: {MISTAKES[mistake][1]}\n", out)
 
+    def test_points_that_never_open_are_the_conclusion_whatever_holds_what_pulls(self) -> None:
+        for mistake in ("tension", "tension_slips", "tension_sticks"):
+            with self.subTest(mistake):
+                _, lines, out = self.check(mistake)
+                self.assertIn("points do not open: F_n > 0", lines["07_opening"])
+                self.assertIn("all its answers look like: points do not open: F_n > 0\n", out)
+
+    def test_what_ends_early_is_not_said_to_have_another_law(self) -> None:
+        _, lines, out = self.check("sweeps=2000")  # right to rounding, also where nothing is
+        self.assertEqual([case for case, line in lines.items() if not re.search(r" ok +-$", line)],
+                         ["09_no_solution"], out)
+        self.assertNotIn("all its answers", out)
+        _, lines, out = self.check("sweeps=30")
+        self.assertNotIn("something in", out)
+        self.assertIn("all its answers look like: an iteration that ends too early", out)
+
+    def test_no_answer_is_no_pass(self) -> None:
+        for mistake, said in {"SILENT": "answer.json: there is none in {output}",
+                              "LINK": "answer.json: there is none in {output}",
+                              "FIFO": "answer.json: there is none in {output}",
+                              "LARGE": r"answer.json: 20971\d+ bytes \(allowed: up to 1048576\)",
+                              "DEEP": "answer.json"}.items():
+            with self.subTest(mistake):
+                code, lines, out = self.check(mistake)
+                self.assertEqual(code, 1)
+                self.assertIn("EXTERNAL:mine: 0 of 10 cases passed\n", out)
+                for line in lines.values():
+                    self.assertRegex(line, f"breakdown +its answer: {said}")
+                self.assertRegex(out, f"all its answers look like: no answer: its answer: {said}")
+
     def test_a_mistake_of_friction_that_is_none_of_the_known_is_said_to_be_one(self) -> None:
         _, lines, out = self.check("unlike_any")
         self.assertRegex(lines["08_no_friction"], r" ok +-$")

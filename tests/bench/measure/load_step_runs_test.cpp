@@ -166,6 +166,7 @@ TEST(LoadStepRuns, TheNoteOnHalvesNamesTheWorstStep) {
                 {"tangential_resultant_N", tangential_N},
                 {"n_stick", stick},
                 {"n_slip", slip},
+                {"strain_energy_Nmm", 50.},
                 {"dissipation_Nmm", 1.}};
   };
   Record record;
@@ -189,6 +190,34 @@ TEST(LoadStepRuns, TheNoteOnHalvesNamesTheWorstStep) {
   note_slip_of_half_steps(record);
   EXPECT_EQ(record.status_reason,
             "with every load step in two halves friction dissipates 4 N mm, not 3");
+}
+
+// −8.98e-17 N mm instead of 2.43e-16: of a path that stores 50 N mm, both are none.
+TEST(LoadStepRuns, DissipationInHalvesIsRelativeToTheLargestStrainEnergy) {
+  const auto remark = [](double whole_Nmm, double halved_Nmm) {
+    const auto step = [](double energy_Nmm, double dissipation_Nmm) {
+      return Json{{"claimed_status", "ok"},
+                  {"normal_resultant_N", -100.},
+                  {"tangential_resultant_N", 5.},
+                  {"n_stick", 10},
+                  {"n_slip", 0},
+                  {"strain_energy_Nmm", energy_Nmm},
+                  {"dissipation_Nmm", dissipation_Nmm}};
+    };
+    Record record;
+    record.steps = {step(50, whole_Nmm), step(0, 0)};  // it ends unloaded
+    record.steps_in_halves = {step(50, halved_Nmm), step(0, 0)};
+    note_slip_of_half_steps(record);
+    return record.status_reason;
+  };
+  EXPECT_EQ(remark(2.43e-16, -8.98e-17), "");
+  EXPECT_EQ(remark(1e-6, 0), "");
+  EXPECT_EQ(remark(0.1, 0.08),
+            "with every load step in two halves friction dissipates 0.08 N mm, "
+            "not 0.1");
+  EXPECT_EQ(remark(0, 0), "");
+  EXPECT_EQ(remark(0.1, -8.98e-17),
+            "with every load step in two halves friction dissipates 0 N mm, not 0.1");
 }
 
 // Without friction nothing is remembered: the last of several equal steps is the single one.

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <numeric>
 #include <sstream>
+#include <tuple>
 
 #include "bench/measure/workbench.hpp"
 #include "support/errors.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/two_blocks.hpp"
 
 namespace airybench::step_fields_test {
 namespace {
@@ -105,6 +107,49 @@ TEST(StepFields, EveryStepIsInFilesThatAgreeWithTheRecord) {
     if (name == "3STEPD") continue;  // an Airy method knows no displacement
     const std::vector<double> held = column(table, "held_y_mm");
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(held[k], k == 1 ? 0.006 : 0, 1e-12);
+  }
+}
+
+// Of two blocks one is pressed on the other and pushed. What is drawn: its contact force, the
+// motion of its support, and not those of both.
+TEST(StepFields, OfTwoBodiesForcesAndMotionAreThoseOfTheMovedOne) {
+  const testing::TemporaryFolder folder;
+  const std::vector<Eigen::Vector2d> motions = {{0, -0.01}, {0.003, -0.01}};
+  const auto constant = [](const Eigen::Vector2d& u) {
+    return LinearValue<Eigen::Vector2d>{{u, u}};
+  };
+  for (const auto& [support, piece, way] :
+       {std::tuple("displacement:head", 2, 1.), {"displacement:floor", 1, -1.}}) {
+    Scene scene = testing::pressed(0.3);
+    for (const char* held : {"displacement:head", "displacement:floor"})
+      scene.boundary[held].displacement_mm = constant({0, 0});
+    scene.boundary[support].displacement_mm = constant(way * motions[0]);
+    scene.later_steps.resize(1);
+    scene.later_steps[0].boundary[support].displacement_mm = constant(way * motions[1]);
+    Options options;
+    options.repetitions = 1;
+    options.fields = true;
+    const fs::path name = folder / support;
+    Workbench bench(testing::posed(scene, testing::two_blocks(7, 10)), options);
+    const Record record = bench.examine(select_methods("HYBRID").front(), name).record;
+    ASSERT_EQ(record.status, Status::ok) << record.status_reason;
+    const fs::path table = name.string() + ".steps.csv";
+    EXPECT_EQ(column(table, "piece"), std::vector<double>(2, piece));
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(column(table, "held_x_mm")[k], way * motions[k].x(), 1e-12);
+      EXPECT_NEAR(column(table, "held_y_mm")[k], way * motions[k].y(), 1e-12);
+      const fs::path points =
+          fs::path(name.string() + ".steps") / fmt::format("000{}.contact.csv", k + 1);
+      const auto of_points = [&](const char* key) { return column(points, key); };
+      const auto F_n = of_points("F_n_N"), n_y = of_points("normal_y"), on = of_points("piece");
+      std::array<double, 2> force_y_N = {0, 0};
+      for (std::size_t p = 0; p < F_n.size(); ++p)
+        force_y_N.at(static_cast<std::size_t>(on[p]) - 1) += F_n[p] * n_y[p];
+      const double pressed_N = -record.steps[k].at("normal_resultant_N").get<double>();
+      EXPECT_GT(pressed_N, 100);
+      EXPECT_NEAR(force_y_N[0] / pressed_N, -1, 1e-9);  // the base is pushed down
+      EXPECT_NEAR(force_y_N[1] / pressed_N, 1, 1e-9);
+    }
   }
 }
 

@@ -13,6 +13,7 @@
 #include "bench/problems/hdf5_handle.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "bench/verify/verifier.hpp"
+#include "solvers/contact/condensed.hpp"
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
 #include "tests/support/bench_command.hpp"
@@ -232,7 +233,17 @@ TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
   refused(with("W/i", whole({0, 2, 1, 0, 2, 4})), "/fclib_local/W/i: [5] is 4 (allowed: 0 to 3)");
   refused(with("W/i", whole({0, -1, 1, 0, 2, 3})), "/fclib_local/W/i: [1] is -1 (allowed: 0 to 3)");
   refused(with("vectors/mu", {{0.3, -0.1}}),
-          "/fclib_local/vectors/mu: [1] is -0.1 (allowed: at least 0)");
+          "/fclib_local/vectors/mu: [1] is -0.1 (allowed: 0 to 1e+06)");
+  refused(with("vectors/mu", {{0.3, 1e308}}),
+          "/fclib_local/vectors/mu: [1] is 1e+308 (allowed: 0 to 1e+06)");
+  for (const double scale : {1e308, 1e-300})
+    refused(
+        of([&](contact::Problem& p) { p.D = Eigen::Matrix4d::Identity() * scale; }),
+        fmt::format("/fclib_local/W: diagonal entry 0 is {:.3g} (allowed: 1e-50 to 1e+50)", scale));
+  refused(of([](contact::Problem& p) { p.D(1, 2) = p.D(2, 1) = 1e300; }),
+          "/fclib_local/W: entries of up to 1e+300 (allowed: 1e+50)");
+  refused(with("vectors/q", {{0, 1e-300, 0, 0}}),
+          "/fclib_local/W: its vector has entries of up to 1e-300 (allowed: 0, or 1e-50 to 1e+50)");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refused(with("vectors/mu", {{nan, 0}}),
           "/fclib_local/vectors/mu: [0] is nan (allowed: finite numbers)");
@@ -265,6 +276,31 @@ TEST_F(FclibReader, WhatIsNoHdf5IsRefused) {
     bench_.expect_refusal("--problem=p.hdf5", "p.hdf5: cannot be opened (allowed: an HDF5 file)\n");
   }
   bench_.expect_refusal("--problem=none.hdf5", "none.hdf5: cannot be opened: no such file\n");
+}
+
+// F ∝ q / W, as long as squares of F are numbers: what says that it converged is right.
+TEST_F(FclibReader, AtTheEndsOfTheRangeEverySolverIsRight) {
+  const Eigen::VectorXd right = solved(small_problem()).F_C;
+  for (const auto& [of_W, of_q] : {std::pair(1e49, 1.0),
+                                   {1e-50, 1.0},
+                                   {1.0, 1e49},
+                                   {1.0, 1e-50},
+                                   {1e-50, 1e49},
+                                   {1e49, 1e-50}}) {
+    contact::Problem scaled = small_problem();
+    scaled.D *= of_W;
+    scaled.G *= of_q;
+    const contact::Problem problem = read(contents_of(scaled, Storage::rows));
+    for (const ContactSolver solver : all_contact_solvers) {
+      SCOPED_TRACE(fmt::format("{:g}, {:g}: {}", of_W, of_q, name_of(solver)));
+      const ContactResult result = solve_contact(problem, {.solver = solver});
+      EXPECT_TRUE(result.converged);
+      EXPECT_LT((result.F_C * (of_W / of_q) - right).norm(), 1e-8 * right.norm());
+      const double measure = *verify(problem, result.F_C).natural_map_residual;
+      EXPECT_LT(measure, 1e-8);
+      EXPECT_GT(*verify(problem, 1.1 * result.F_C).natural_map_residual, 1e-3);
+    }
+  }
 }
 
 TEST_F(FclibReader, DamagedFilesAreRefusedOrRead) {

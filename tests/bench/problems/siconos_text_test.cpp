@@ -89,7 +89,7 @@ TEST_F(SiconosText, WrongFilesAreRefusedInOneLine) {
           "7: the file ends before 16 numbers (allowed: as many as it announces)");
   refused("2\n2\n" + dense + "1 2 x 4\n0.3 0\n", "11: x (allowed: a finite number)");
   refused("2\n2\n" + dense + "1 2 nan 4\n0.3 0\n", "11: nan (allowed: a finite number)");
-  refused("2\n2\n" + dense + "1 2 3 4\n0.3 -1\n", " mu: [1] is -1 (allowed: at least 0)");
+  refused("2\n2\n" + dense + "1 2 3 4\n0.3 -1\n", " mu: [1] is -1 (allowed: 0 to 1e+06)");
   refused("2\n2\n" + dense + "1 2 3 4\n0.3\n", "13: the file ends (allowed: a finite number)");
   refused("3\n2\n" + dense + vectors, " W: 4 x 4 (allowed: 6 x 6)");
   refused("2\n2\n" + dense + vectors + "1 0.5 x", "13: x (allowed: a finite number)");

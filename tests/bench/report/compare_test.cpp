@@ -71,6 +71,37 @@ TEST(Compare, AnEffectMustExceedTheMinimumAndTheDrift) {
   }
 }
 
+// Four runs a side of a program that takes 1 ms in A and 4 ms in B, next to `ours_s` of our own
+// time that scatters by 3 %.
+Sides of_program(double ours_s, bool is_old_record = false) {
+  Sides sides = interleaved(1);
+  for (Runs* runs : {&sides.a, &sides.b})
+    for (std::size_t run = 0; run < runs->size(); ++run) {
+      Record& one = (*runs)[run][0];
+      const double own_s = runs == &sides.a ? 1e-3 : 4e-3;
+      one.method = "EXTERNAL:mine";
+      one.program = "1.0";
+      one.samples_s = {own_s + ours_s * (1 + 0.01 * static_cast<double>(run))};
+      if (!is_old_record) one.program_solve_samples_s = {own_s};
+    }
+  return sides;
+}
+
+TEST(Compare, OfAProgramItsOwnSolveIsJudged) {
+  for (const double ours_s : {0.011, 1.}) {
+    const Comparison comparison = compared(of_program(ours_s));
+    EXPECT_NEAR(comparison.cases.at(0).ratio, 4, 1e-12);
+    EXPECT_EQ(comparison.cases[0].verdict, slower);
+    for (const std::string& text : {comparison.text(), comparison.markdown()})
+      EXPECT_NE(text.find("program's own solve"), std::string::npos) << text;
+    EXPECT_EQ(comparison.json()["cases"][0]["time"], "program_solve_s");
+  }
+  const Comparison old = compared(of_program(0.011, true));
+  EXPECT_NEAR(old.cases.at(0).ratio, 1.25, 0.02);
+  EXPECT_EQ(old.json()["cases"][0]["time"], "time_s");
+  EXPECT_EQ(old.text().find("program's own solve"), std::string::npos);
+}
+
 TEST(Compare, OneRunEachIsNotSeparatedHoweverManyRepetitions) {
   const Comparison one =
       compare({{record("3STEPD", 1, 1000)}}, {{record("3STEPD", 1.6, 1000)}}, {});

@@ -1,6 +1,7 @@
 // The table of cases for papers: golden texts, from records made up for what could break a format.
 #include "bench/report/results_table.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace airybench::results_table_test {
@@ -41,6 +42,22 @@ std::string message(const std::vector<std::string>& columns) {
     return error.what();
   }
   return "accepted";
+}
+
+TEST(ResultsTables, ARemarkNamesItsSceneOrWhereRemarksDifferItsCase) {
+  const auto reasons = [](const std::vector<std::string>& remarks) {
+    ResultsTable table;
+    for (std::size_t k = 0; k < remarks.size(); ++k) {
+      Record record = measured(fmt::format("HYBRID:k={}", k + 1), 1, 1, 1e-9);
+      record.status_reason = remarks[k];
+      table.add(record);
+    }
+    const std::string text = table.text();
+    return text.substr(text.rfind("ok\n") + 3);
+  };
+  EXPECT_EQ(reasons({"it slides", "it slides", ""}), "Mesh3/a_b|c: it slides\n");
+  EXPECT_EQ(reasons({"it slides", "it rolls", "it slides"}),
+            "Mesh3/a_b|c/HYBRID:k=1 and 1 more: it slides\nMesh3/a_b|c/HYBRID:k=2: it rolls\n");
 }
 
 TEST(PaperTables, MarkdownHasAUnitPerColumn) {

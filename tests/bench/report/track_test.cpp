@@ -166,6 +166,32 @@ TEST(Track, ASlowdownIsReportedOnceWithItsFirstRun) {
   EXPECT_EQ(reports, 1);
 }
 
+// A program that takes four times as long next to 1 s of ours: the sum scatters by more. Ten nights
+// before programs' own times were kept are no faster than those after.
+TEST(Track, OfAProgramItsOwnSolveIsJudged) {
+  testing::Dice dice(1);
+  std::vector<TrackedRun> runs;
+  for (int day = 0; day < 40; ++day) {
+    const double own_s = (day >= 25 ? 0.004 : 0.001) * dice.between(0.98, 1.02);
+    Record mine = record("EXTERNAL:mine", own_s + dice.between(0.98, 1.02));
+    mine.program = "1.0";
+    if (day >= 10) mine.program_solve_s = own_s;
+    runs.push_back(run_of(day, {mine, record("ALM", dice.between(0.98, 1.02))}));
+  }
+  int reports = 0;
+  for (const TrackedRun& run : tracked(runs))
+    for (const Finding& finding : run.findings) {
+      ++reports;
+      EXPECT_EQ(finding.quantity, "program_solve_s");
+      EXPECT_EQ(finding.since, runs[25].date);
+      EXPECT_NEAR(*finding.ratio, 4, 0.2);
+      EXPECT_NE(finding.sentence.find("EXTERNAL:mine: the program's own solve is slower since"),
+                std::string::npos)
+          << finding.sentence;
+    }
+  EXPECT_EQ(reports, 1);
+}
+
 TEST(History, IsReadAsItWasWritten) {
   const testing::TemporaryFolder folder;
   EXPECT_TRUE(read_history(folder / "none").empty());

@@ -95,7 +95,7 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
                 ? "broken.msh: no mesh (what can be read: *.geo, *.msh, "
                 : "broken.msh:1: not a mesh file: the first line must be $MeshFormat\n"},
            {"--scene=nowhere.json", "nowhere.json: cannot be opened: No such file or directory\n"},
-           {"--scene=bad.json", "bad.json: friction: -2 (allowed: >= 0)\n"},
+           {"--scene=bad.json", "bad.json: friction: -2 (allowed: 0 to 1e6)\n"},
            {"--mesh=Mesh0 --scene=four.json",
             "four.json: teeth: 4 contradicts the mesh Mesh0, which has 1 contact face(s)\n"},
            {"--method=4STEP", "no method matches '4STEP' (valid: SDTIC3, "},
