@@ -62,7 +62,9 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
     a += m * left.loads;
     return left;
   };
-  Eigen::VectorXd left_N;  // with springs that are soft, while D counts
+  // With springs that are soft, while D counts: what is left, and the residual of laws not solved.
+  Eigen::VectorXd left_N;
+  double unsolved = 0;
   if (N.cols() > 0) {
     constexpr int soft = 6;
     const double least = problem.D.diagonal().mean() / N.rowwise().squaredNorm().mean();
@@ -72,7 +74,10 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
       const Unbalanced unbalanced = solve_held(m);
       const double left = unbalanced.relative;
       if (!result.F_C.allFinite()) return result;
-      if (step <= soft) left_N = free.motions.transpose() * result.F_C + rigid.loads_N;
+      if (step <= soft) {
+        left_N = free.motions.transpose() * result.F_C + rigid.loads_N;
+        if (!result.converged) unsolved = std::max(unsolved, result.natural_map_residual);
+      }
       if (left <= balanced || (left <= nearly_balanced && left > before / 2)) break;
       before = left;
     }
@@ -82,7 +87,11 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
   }
   solve_held(0);
   const Unbalanced left(N, l, result.F_C, rigid.rounding_N);
-  if (result.converged && left.relative > enough) throw_not_held(free, left_N);
+  if (result.converged && left.relative > enough) {
+    if (unsolved == 0) throw_not_held(free, left_N);
+    result.converged = false;
+    result.natural_map_residual = unsolved;
+  }
   result.free_motion_mm = resisted * a;
   return result;
 }
