@@ -25,11 +25,13 @@ namespace airybench {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
+struct RigidContact;
+
 struct FreeBodies {
-  Eigen::MatrixXd motions;             // N, n_c × count, in the rows of F_C; no columns: none
-  Eigen::VectorXd loads_N;             // l
-  std::vector<std::string> bodies;     // per motion, for messages
-  std::vector<Eigen::Vector2d> along;  // of translations; zero: a turn
+  Eigen::MatrixXd motions;  // N, n_c × count, in the rows of F_C; no columns: none
+  std::shared_ptr<const RigidContact> rigid;  // has l
+  // How near to its ends the resultant of an edge's forces F may be, over its length.
+  double edge_reach = 0;
   bool is_empty() const { return motions.cols() == 0; }
 };
 

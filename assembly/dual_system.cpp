@@ -129,6 +129,7 @@ ContactPoints contact_points(const Problem& problem, int degree) {
         });
       },
       contact);
+  contact.free.edge_reach = 1. / (degree + 2);  // of ∫ B_j
   return contact;
 }
 

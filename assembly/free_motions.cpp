@@ -1,6 +1,5 @@
 #include "assembly/free_motions.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -12,10 +11,42 @@
 namespace airybench {
 namespace {
 
-std::vector<RigidMotion> motions_of(const PieceSupport& support, const Eigen::Vector2d& centre,
-                                    double radius) {
-  if (support.along) return {{centre, *support.along, 0}};
-  return {{centre, {1, 0}, 0}, {centre, {0, 1}, 0}, {centre, {0, 0}, 1 / radius}};
+struct PlaneArea {
+  double mm2 = 0;
+  Eigen::Vector2d centroid = {0, 0};
+  double gyration_mm = 0;  // √(∫|x − c|²/A)
+};
+
+PlaneArea plane_area(const Mesh& mesh, const std::vector<int>& piece_of_vertex, int piece) {
+  PlaneArea area;
+  const auto sum = [&](const auto& add) {
+    for (const auto& [a, b, c] : mesh.triangles)
+      if (piece_of_vertex[a] == piece) {
+        const auto &x = mesh.vertices[a], &y = mesh.vertices[b], &z = mesh.vertices[c];
+        add(cross_area(x, y, z) / 2, x, y, z);
+      }
+  };
+  using Point = const Eigen::Vector2d&;
+  sum([&](double mm2, Point x, Point y, Point z) {
+    area.mm2 += mm2;
+    area.centroid += mm2 * (x + y + z) / 3;
+  });
+  area.centroid /= area.mm2;
+  double inertia = 0;
+  sum([&](double mm2, Point x, Point y, Point z) {
+    const auto& o = area.centroid;
+    inertia += mm2 / 12 *
+               ((x - o).squaredNorm() + (y - o).squaredNorm() + (z - o).squaredNorm() +
+                (x + y + z - 3 * o).squaredNorm());
+  });
+  area.gyration_mm = std::sqrt(inertia / area.mm2);
+  return area;
+}
+
+std::vector<RigidMotion> motions_of(const PieceSupport& support, const PlaneArea& area) {
+  const Eigen::Vector2d& c = area.centroid;
+  if (support.along) return {{c, *support.along, 0}};
+  return {{c, {1, 0}, 0}, {c, {0, 1}, 0}, {c, {0, 0}, 1 / area.gyration_mm}};
 }
 
 int larger_component(const Eigen::Vector2d& v) {
@@ -93,18 +124,16 @@ FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
   for (int piece = 0; piece < pieces.count; ++piece) {
     const PieceSupport& own = supports[piece];
     if (!is_free(own)) continue;
-    Eigen::AlignedBox2d box;
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      if (pieces.of_vertex[v] == piece) box.extend(mesh.vertices[v]);
-    for (const RigidMotion& motion : motions_of(own, box.center(), box.diagonal().norm() / 2))
-      result.motions.push_back({piece, motion});
+    const PlaneArea area = plane_area(mesh, pieces.of_vertex, piece);
+    for (const RigidMotion& motion : motions_of(own, area))
+      result.motions.push_back({piece, motion, area.mm2});
     std::vector<int> rows;
     for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
       if (const BoundaryEdge& edge = mesh.boundary[row];
           edge.role == BoundaryRole::force && !of_another_role[edge.vertices[0]] &&
           pieces.of_vertex[edge.vertices[0]] == piece)
         rows.push_back(row);
-    add_pins(mesh, rows, own, box.center(), result.pins);
+    add_pins(mesh, rows, own, area.centroid, result.pins);
   }
   return result;
 }

@@ -1,6 +1,6 @@
 // Rigid motions of pieces of a mesh that no displacement edge holds: contact alone does.
 //
-//   u = w + ρ + Σ_m a_m N_m   on such a piece, N_m of at most 1, a_m in mm
+//   u = w + ρ + Σ_m a_m N_m   on such a piece, a_m in mm
 //
 // w vanishes at pins, as many freedoms as the piece has motions. So all matrices are those of held
 // bodies. Where contact balances the loads on every N_m, N_mᵀ F + l_m = 0, pins have no reactions,
@@ -26,9 +26,12 @@ struct PieceSupport {
 std::vector<PieceSupport> supports_of(const Mesh& mesh, const std::vector<bool>& rollers,
                                       const MeshPieces& pieces);
 
+// Motions of a piece do not accelerate one another: translations, and the turn about its centroid,
+// of 1 mm at the radius of gyration √(∫|x − c|²/A). The mass of each is the area A.
 struct FreeMotion {
   int piece;  // of MeshPieces
   RigidMotion of_one_mm;
+  double area_mm2;
 };
 
 // w has no such component at the start of a force edge, a row of Mesh::boundary: in moments the

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/rigid_contact.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "solvers/base/method.hpp"
 #include "support/seconds_since.hpp"
@@ -184,6 +185,9 @@ void note_what_is_idle(const Problem& problem, Record& record) {
     record.status_reason = fmt::format("nothing touches the {}: all {} contact points are open{}",
                                        obstacle_of(problem), points, words_of_least_gap(problem));
   }
+  if (problem.free.motions.empty()) return;
+  if (const std::string open = words_of_open_motions(rigid_contact(problem)); !open.empty())
+    add_reason(open, record);
 }
 
 static void note_dissipation_of_half_steps(Record& record) {

@@ -61,7 +61,8 @@ void note(const MemorySplit& memory, Record& record);
 // "; the least gap to the wall is 0.012 mm", of the body as it is held, before it deforms; empty:
 // it has no contact boundary, or a path of load steps.
 std::string words_of_least_gap(const Problem& problem);
-// Gives a verified ok case its reason: nothing touches, can touch, or is free.
+// Gives a verified ok case its reason: nothing touches, can touch, or is free; bodies that may move
+// without resistance and load.
 void note_what_is_idle(const Problem& problem, Record& record);
 // The same: half-size load steps change, in any step, how many points stick or slip, or the
 // resultant by over 1 %.

@@ -8,6 +8,13 @@ std::size_t matrix_bytes(const Solution& solution) {
   return solution.storage.sum() - solution.storage[MemoryOwner::iteration] + solution.file_bytes;
 }
 
+void stop_unconverged(const std::string& iteration, bool is_finite, const std::string& message,
+                      Solution& solution) {
+  solution.status = is_finite ? Status::not_converged : Status::breakdown;
+  solution.message =
+      iteration + ": " + (is_finite ? message : "its iterates are no longer finite numbers");
+}
+
 void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution) {
   solution.error_estimate = estimate;
   if (solution.status != Status::ok || estimate <= control.target_error) return;

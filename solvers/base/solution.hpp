@@ -172,6 +172,11 @@ struct RunControl {
   ContactOptions contact = {};              // with the paper's stop its solver is Gauss–Seidel
 };
 
+// After an iteration that has not converged: not_converged with this message, but a breakdown where
+// what is iterated is not finite.
+void stop_unconverged(const std::string& iteration, bool is_finite, const std::string& message,
+                      Solution& solution);
+
 // Stores the estimate; the status is `inaccurate` where it is above the target.
 void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution);
 

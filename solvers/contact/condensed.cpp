@@ -82,11 +82,11 @@ void solve_condensed_contact(const contact::Problem& problem, const RunControl& 
   }
   if (!result.converged) {
     std::ostringstream message;
-    message << "contact law: natural map residual " << result.natural_map_residual << " after "
+    message << "natural map residual " << result.natural_map_residual << " after "
             << result.iterations << " iterations and " << result.active_set_steps
             << " active sets (tolerance " << options.tolerance << ")";
-    solution.status = Status::not_converged;
-    solution.message = message.str();
+    stop_unconverged("contact law", !std::isnan(result.natural_map_residual), message.str(),
+                     solution);
   }
 }
 

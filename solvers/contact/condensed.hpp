@@ -16,9 +16,10 @@ struct ContactResult {
   Eigen::VectorXd free_motion_mm;  // a of ContactPoints::free; empty: there is none
   // By ContactOptions::tolerance, or by ContactOptions::acceptable where it ended.
   bool converged = false;
-  int iterations = 0;                                                     // sweeps
-  int active_set_steps = 0;                                               // active_set.hpp
-  double natural_map_residual = std::numeric_limits<double>::infinity();  // relative to ‖F_C‖
+  int iterations = 0;        // sweeps
+  int active_set_steps = 0;  // active_set.hpp
+  // Relative to ‖F_C‖; infinity: not computed; NaN: a force is not finite.
+  double natural_map_residual = std::numeric_limits<double>::infinity();
   std::vector<double> history;  // ‖change of an iteration‖/‖F_C‖; if ContactOptions::history
 };
 
@@ -50,7 +51,10 @@ ContactResult iterate_contact(const contact::Problem& problem, const ContactOpti
     const double change = next(F);
     ++result.iterations;
     const double norm = F.norm();
-    if (!std::isfinite(norm)) return result;
+    if (!std::isfinite(norm)) {
+      result.natural_map_residual = std::numeric_limits<double>::quiet_NaN();
+      return result;
+    }
     if (options.history) result.history.push_back(norm > 0 ? change / norm : 0);
     if (change <= options.tolerance * norm)
       result.converged = ask(norm > 0 ? options.tolerance : 0);

@@ -1,47 +1,31 @@
 #include "solvers/contact/free_bodies.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
+
+#include "solvers/contact/released_bodies.hpp"
 
 namespace airybench {
 namespace {
 
-// What contact leaves of the loads on the motions, N.
+// What contact leaves of the loads on motions, N. Less than negligible_N counts as nothing.
 struct Unbalanced {
   Eigen::VectorXd loads;
   double relative;  // to the largest sum of forces on a motion
 
-  Unbalanced(const FreeBodies& free, const Eigen::VectorXd& F)
-      : loads(free.motions.transpose() * F + free.loads_N) {
+  Unbalanced(const Eigen::MatrixXd& N, const Eigen::VectorXd& l, const Eigen::VectorXd& F,
+             double negligible_N)
+      : loads(N.transpose() * F + l) {
+    const double largest_N = loads.lpNorm<Eigen::Infinity>();
     const double scale =
-        (free.motions.cwiseAbs().transpose() * F.cwiseAbs() + free.loads_N.cwiseAbs()).maxCoeff();
-    relative = scale > 0 ? loads.cwiseAbs().maxCoeff() / scale : 0;
+        (N.cwiseAbs().transpose() * F.cwiseAbs() + l.cwiseAbs()).lpNorm<Eigen::Infinity>();
+    relative = largest_N <= negligible_N ? 0 : largest_N / scale;
   }
 };
 
-// Of the body with the largest unbalanced load.
-[[noreturn]] void throw_not_held(const FreeBodies& free, const Unbalanced& left, double not_held) {
-  Eigen::Index worst = 0;
-  left.loads.cwiseAbs().maxCoeff(&worst);
-  Eigen::Vector2d resultant = Eigen::Vector2d::Zero();
-  for (Eigen::Index m = 0; m < left.loads.size(); ++m)
-    if (free.bodies[m] == free.bodies[worst]) resultant += left.loads(m) * free.along[m];
-  std::ostringstream line;
-  line.precision(3);
-  const char* const what = left.relative > not_held ? "nothing" : "hardly anything";
-  const auto tidy = [](double x) { return std::abs(x) < 1e-6 ? 0 : x; };
-  if (free.along[worst].isZero(0)) {
-    line << what << " keeps " << free.bodies[worst] << " from turning: contact leaves "
-         << std::abs(left.loads(worst)) << " N of the loads at its rim";
-  } else {
-    const Eigen::Vector2d along = resultant.normalized();
-    line << what << " holds " << free.bodies[worst] << " along (" << tidy(along.x()) << ", "
-         << tidy(along.y()) << "): contact leaves " << resultant.norm() << " N of the loads";
-  }
-  throw Breakdown(line.str());
+[[noreturn]] void throw_not_held(const FreeBodies& free, const Eigen::VectorXd& left_N) {
+  throw Breakdown(why_not_held(*free.rigid, free.edge_reach, left_N));
 }
 
 }  // namespace
@@ -50,10 +34,16 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
                                      const Deadline& deadline) {
   constexpr int most_steps = 16;
   constexpr double balanced = 1e-13, nearly_balanced = 1e-11, rough = 1e-8;  // of relative
-  constexpr double enough = 1e-9, not_held = 1e-6;                           // at the end
+  constexpr double enough = 1e-9;                                            // at the end
+  constexpr double noise = 1e-3;                                             // of rounding_N
   if (!problem.is_dense()) throw std::invalid_argument("free bodies with a sparse D");
   const FreeBodies& free = problem.points.free;
-  const Eigen::MatrixXd& N = free.motions;
+  const RigidContact& rigid = *free.rigid;
+  const auto [open, resisted] = motion_spaces(rigid);
+  if (open.cols() > 0 && (open.transpose() * rigid.loads_N).norm() > rigid.negligible_N())
+    throw_not_held(free, {});
+  const Eigen::MatrixXd N = free.motions * resisted;
+  const Eigen::VectorXd l = resisted.transpose() * rigid.loads_N;
   contact::Problem held = problem;
   held.points.free = {};
   ContactOptions from_here = options;
@@ -61,42 +51,60 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
   Eigen::VectorXd a = Eigen::VectorXd::Zero(N.cols());
   const auto solve_held = [&](double m) {
     held.D = problem.D + m * N * N.transpose();
-    held.G = problem.G - N * (a + m * free.loads_N);
+    held.G = problem.G - N * (a + m * l);
     ContactResult next = solve_contact(held, from_here, deadline);
     next.iterations += result.iterations;
     next.active_set_steps += result.active_set_steps;
     next.history.insert(next.history.begin(), result.history.begin(), result.history.end());
     result = std::move(next);
     from_here.start = result.F_C;
-    Unbalanced left(free, result.F_C);
+    Unbalanced left(N, l, result.F_C, noise * rigid.rounding_N);
     a += m * left.loads;
     return left;
   };
-  const double least = problem.D.diagonal().mean() / N.rowwise().squaredNorm().mean();
-  double m = least, before = std::numeric_limits<double>::infinity();
-  from_here.acceptable = std::max(options.acceptable, rough);  // the last solve makes up for it
-  for (int step = 0; step < most_steps; ++step, m *= 10) {
-    const double left = solve_held(m).relative;
-    if (!result.F_C.allFinite()) return result;
-    if (left <= balanced || (left <= nearly_balanced && left > before / 2)) break;
-    before = left;
+  // With springs that are soft, while D counts: what is left, and the residual of laws not solved.
+  Eigen::VectorXd left_N;
+  double unsolved = 0;
+  if (N.cols() > 0) {
+    constexpr int soft = 6;
+    const double least = problem.D.diagonal().mean() / N.rowwise().squaredNorm().mean();
+    double m = least, before = std::numeric_limits<double>::infinity();
+    from_here.acceptable = std::max(options.acceptable, rough);  // the last solve makes up for it
+    for (int step = 0; step < most_steps; ++step, m *= 10) {
+      const Unbalanced unbalanced = solve_held(m);
+      const double left = unbalanced.relative;
+      if (!result.F_C.allFinite()) return result;
+      if (step <= soft) {
+        left_N = free.motions.transpose() * result.F_C + rigid.loads_N;
+        if (!result.converged) unsolved = std::max(unsolved, result.natural_map_residual);
+      }
+      if (left <= balanced || (left <= nearly_balanced && left > before / 2)) break;
+      before = left;
+    }
+    // m N Nᵀ has cost digits of D: firmer springs take the error out of a that this has left.
+    for (; m > least; m /= 100) solve_held(m);
+    from_here.acceptable = options.acceptable;
   }
-  // m N Nᵀ has cost digits of D: firmer springs take the error out of a that this has left.
-  for (; m > least; m /= 100) solve_held(m);
-  from_here.acceptable = options.acceptable;
-  const Unbalanced left = solve_held(0);
-  if (result.converged && left.relative > enough) throw_not_held(free, left, not_held);
-  result.free_motion_mm = std::move(a);
+  solve_held(0);
+  const Unbalanced left(N, l, result.F_C, rigid.rounding_N);
+  if (result.converged && left.relative > enough) {
+    if (unsolved == 0) throw_not_held(free, left_N);
+    result.converged = false;
+    result.natural_map_residual = unsolved;
+  }
+  result.free_motion_mm = resisted * a;
   return result;
 }
 
 double unbalanced_share(const FreeBodies& free, const Eigen::VectorXd& F) {
-  return free.is_empty() ? 0 : Unbalanced(free, F).relative;
+  if (free.is_empty()) return 0;
+  const RigidContact& rigid = *free.rigid;
+  return Unbalanced(free.motions, rigid.loads_N, F, rigid.rounding_N).relative;
 }
 
 void refuse_free_bodies(const ContactPoints& contact) {
   if (contact.free.is_empty()) return;
-  throw Breakdown(contact.free.bodies.front() +
+  throw Breakdown(contact.free.rigid->bodies.front() +
                   " is held by contact alone: only methods that condense on the contact points "
                   "find its motion");
 }

@@ -11,18 +11,21 @@
 // the method of multipliers, Rockafellar 1976, doi:10.1137/0314056.) What stays unbalanced falls by
 // 1 + m c per step, c the contact's stiffness against the motion: where there is none, and a load,
 // it stays. As m N Nᵀ costs digits of D, firmer springs follow, and none at last.
+//
+// Motions that no contact resists (motion_spaces) are left out; their amounts are zero.
 #pragma once
 
 #include "solvers/contact/condensed.hpp"
 
 namespace airybench {
 
-// D must be dense. Throws Breakdown, with body and direction, where loads stay unbalanced.
+// D must be dense. Throws Breakdown where loads stay unbalanced or ask for a motion that no contact
+// resists, with what rigid bodies do then (released_bodies.hpp).
 ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
                                      const Deadline& deadline);
 
 // The largest load on a motion that contact leaves, over the largest sum of forces on one; 0
-// without free bodies.
+// without free bodies, and where it is RigidContact::rounding_N at most.
 double unbalanced_share(const FreeBodies& free, const Eigen::VectorXd& F);
 
 // For methods without D. Throws Breakdown.

@@ -65,10 +65,9 @@ void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovO
          summary.history});
   if (summary.converged) return;
   std::ostringstream message;
-  message << solver << ": relative residual " << summary.residual << " after "
-          << summary.most_iterations << " iterations (tolerance " << options.tolerance << ")";
-  solution.status = Status::not_converged;
-  solution.message = message.str();
+  message << "relative residual " << summary.residual << " after " << summary.most_iterations
+          << " iterations (tolerance " << options.tolerance << ")";
+  stop_unconverged(solver, !std::isnan(summary.residual), message.str(), solution);
 }
 
 }  // namespace airybench

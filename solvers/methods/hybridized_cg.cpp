@@ -1,5 +1,6 @@
 // HYBRID:CG: hybridized equilibrium elements, iteratively: two levels, active sets on K itself.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <sstream>
 
@@ -32,12 +33,12 @@ void note_rows(const RowsResult& rows, const RunControl& control, Solution& solu
     solution.histories.push_back({"relative error of the linear system per step", rows.history});
   if (rows.converged) return;
   std::ostringstream message;
-  message << "active sets on the hybridized matrix: natural map residual "
-          << rows.natural_map_residual << ", linear error " << rows.linear_error << " after "
-          << rows.steps << " active sets and " << rows.iterations
+  message << "natural map residual " << rows.natural_map_residual << ", linear error "
+          << rows.linear_error << " after " << rows.steps << " active sets and " << rows.iterations
           << " linear iterations (tolerance " << control.tolerance << ")";
-  solution.status = Status::not_converged;
-  solution.message = message.str();
+  stop_unconverged("active sets on the hybridized matrix",
+                   !std::isnan(rows.natural_map_residual + rows.linear_error), message.str(),
+                   solution);
 }
 
 void note_parameters(const CoarseDisplacements& coarse, Solution& solution) {

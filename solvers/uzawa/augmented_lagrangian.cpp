@@ -303,10 +303,11 @@ void store_uzawa_answer(const DualSystem& system, const RunControl& control,
     solution.status = Status::ok;
     solution.message.clear();
   } else {
-    solution.status = Status::not_converged;
-    solution.message = "Uzawa iteration (" + solution.parameters + ") " +
-                       (result.outcome == UzawaOutcome::diverged ? "diverged: " : "too slow: ") +
-                       residuals(result);
+    stop_unconverged("Uzawa iteration (" + solution.parameters + ")",
+                     std::isfinite(result.primal_N + result.primal + result.dual),
+                     (result.outcome == UzawaOutcome::diverged ? "diverged: " : "too slow: ") +
+                         residuals(result),
+                     solution);
   }
   if (solution.status == Status::ok && control.stop == Stop::target)
     check_uzawa_answer(system, penalised, result, control, solution);

@@ -102,11 +102,11 @@ TEST_P(AugmentedLagrangian, ThePapersStopIsFeasibilityOnlyAndLeavesALargerError)
   EXPECT_GT(force_error(paper, reference), 10 * force_error(target, reference));
 }
 
-TEST_P(AugmentedLagrangian, WhatIsNotFiniteDoesNotConverge) {
+TEST_P(AugmentedLagrangian, WhatIsNotFiniteIsABreakdown) {
   for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     DualSystem system = system_of();
     system.q = Eigen::VectorXd::Constant(system.n(), poison);
-    EXPECT_EQ(solve(system).status, Status::not_converged);
+    EXPECT_EQ(solve(system).status, Status::breakdown);
     EXPECT_THROW(tune(system, with_tolerance(1e-6)), Breakdown);
     system = system_of();
     system.S.valuePtr()[5] = poison;
