@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -199,21 +198,22 @@ class Recovery {
     return result;
   }
 
-  // Zones, while there is more to gain than this share of the distance. What is true error stays in
+  // Zones, while there is more to gain than a share of the distance. What is true error stays in
   // thin triangles, too: a zone is worth another one only if it has lowered the distance by far.
+  // The last step puts w behind the walls.
   void improve_where_needed() {
-    constexpr double enough = 0.25, far = 10;
+    constexpr double share = 0.25, far = 10;
     constexpr int max_zones = 4;
-    double before = std::numeric_limits<double>::infinity();
-    for (int zones = 0;; ++zones) {
+    JacobiStep now = step();
+    bool is_needed = now.gain_Nmm.sum() > share * now.distance_Nmm;
+    for (int zones = 1; is_needed; ++zones) {
+      improve_zone_of(now);
       JacobiStep next = step();
-      const bool is_done = zones == max_zones ||
-                           !(next.gain_Nmm.sum() > enough * next.distance_Nmm) ||
-                           far * next.distance_Nmm > before;
-      if (is_done && zones > 0) w_ = std::move(next.w);  // behind the walls
-      if (is_done) return;
-      before = next.distance_Nmm;
-      improve_zone_of(next);
+      const bool is_better = next.distance_Nmm < now.distance_Nmm;  // NaN: no
+      is_needed = is_better && zones < max_zones && far * next.distance_Nmm < now.distance_Nmm &&
+                  next.gain_Nmm.sum() > share * next.distance_Nmm;
+      if (is_better) now = std::move(next);
+      if (!is_needed) w_ = std::move(now.w);
     }
   }
 

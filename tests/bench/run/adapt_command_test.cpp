@@ -1,4 +1,5 @@
 // bench --adapt from outside: levels, files, exit codes, one-line complaints.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,6 +86,56 @@ TEST_F(AdaptCommand, DegreesHaveLevelsOfTheirOwnThatCanBeJoined) {
               std::string::npos)
         << complaint();
   }
+}
+
+// The degree that was asked for is the one that is measured; what misses the goal is named.
+TEST_F(AdaptCommand, CasesAreOfTheDegreeAndMeetTheGoalOrAreNamed) {
+  const std::string adapt = "--mesh=Mesh0 --adapt=1%,levels=last --degree=2 --repetitions=1 ";
+  ASSERT_EQ(bench(adapt + "--method=HYBRID,HYBRID:CHOLMOD --out=o"), 0) << complaint();
+  for (const Json& record : bench_.records()) {
+    EXPECT_EQ(record["degree"], 2) << record["method"];
+    EXPECT_EQ(record["adapt_goal"], 0.01);
+    EXPECT_LE(record["error_total"].get<double>(), 0.01);
+  }
+  ASSERT_EQ(bench(adapt + "--method=HYBRID:k=1,HYBRID --out=p"), 1) << complaint();
+  const auto records = bench_.records("p");
+  ASSERT_EQ(records.size(), 2u);
+  for (const Json& record : records) {
+    EXPECT_EQ(record["status"], "ok");
+    const std::string name = record["mesh"].get<std::string>() + "/default/" +
+                             record["method"].get<std::string>() + ": its total error";
+    EXPECT_EQ(bench_.content("out.txt").find(name) != std::string::npos,
+              record["degree"] == 1 && record["error_total"] > 0.01)
+        << name;
+  }
+  EXPECT_EQ(bench("--mesh=Mesh0 --adapt=1%,by=HYBRID:k=3 --degree=2"), 2);
+  EXPECT_NE(complaint().find("HYBRID:k=3 (allowed: one of both, or by=HYBRID:k=2)"),
+            std::string::npos)
+      << complaint();
+}
+
+// Of a path the loop's error, the record's and that of the exit code are one: the largest of its
+// steps', each relative to its own stresses.
+TEST_F(AdaptCommand, APathIsAdaptedToTheLargestErrorOfItsSteps) {
+  write("s.json", R"({"load_steps": [{"displacement_mm": [0.005, 0]}],
+                      "displacement_mm": [0.02, 0.02]})");
+  ASSERT_EQ(bench("--mesh=Mesh0 --scene=s.json --method=HYBRID --adapt=3% --repetitions=1 --out=o"),
+            0)
+      << complaint();
+  for (const Json& record : bench_.records()) {
+    double largest = 0;
+    for (const Json& step : record["steps"])
+      largest = std::max(largest, step["error_discretisation"].get<double>());
+    EXPECT_EQ(record["error_discretisation"], largest);
+    EXPECT_NEAR(record["error_total"].get<double>(), largest, 1e-6);
+    EXPECT_NE(complaint().find(fmt::format("total error {:.3g} %", 100 * largest)),
+              std::string::npos)
+        << largest << "\n"
+        << complaint();
+  }
+  const Json last = bench_.records().back();
+  EXPECT_EQ(last["adapt_goal"], 0.03);
+  EXPECT_LE(last["error_total"].get<double>(), 0.03);
 }
 
 TEST_F(AdaptCommand, AppendingKeepsTheMeshesOfEarlierRecords) {
