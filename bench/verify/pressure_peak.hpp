@@ -3,12 +3,10 @@
 //
 // Between smooth faces the pressure of a solution is bounded. It may be infinite only
 //
-//   - where a face ends in contact, unless the end is a regular one. Reflection makes these
-//   regular:
-//     without friction a free side at ω ≤ 90° to the face; a roller at 90°, without friction or
+//   - where a face ends in contact, unless the end is a regular one. By reflection these are: a
+//     free side at ω ≤ 90° to the face, without friction; a roller at 90°, without friction or
 //     where the end sticks;
-//   - at a kink of the gap that protrudes into a body. The slope of g0 jumps by κ > 0 there, and
-//   the
+//   - at a kink of the gap that protrudes into a body: where the slope of g0 jumps by κ > 0 the
 //     pressure is like E' κ ln(1/r) (the wedge's p = E' κ/(2π) arcosh(a/r), Johnson 1985, 5.2);
 //   - at an end or a step of a wall, a corner of a face, a change of friction or of materials.
 //
