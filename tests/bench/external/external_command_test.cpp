@@ -32,6 +32,8 @@ TEST_F(ExternalCommand, AnHonestAnswerIsOkWithItsOwnNumbers) {
     EXPECT_EQ(r["family"], "EXTERNAL:" + name);
     EXPECT_EQ(r["program"], name + " 1.0");
     EXPECT_GE(r["program_s"], 0.1);  // it sleeps so long, which its own clock leaves out
+    EXPECT_GT(r["program_solve_s"], 0);
+    EXPECT_LT(r["program_solve_s"], r["time_s"]);  // which has our part, too
     EXPECT_GE(r["time_s"], 2e-6);
     EXPECT_GT(r["processor_s"], 0);
     EXPECT_GT(r["peak_rss_bytes"], 0);
