@@ -26,14 +26,14 @@ PlaneArea plane_area(const Mesh& mesh, const std::vector<int>& piece_of_vertex, 
         add(cross_area(x, y, z) / 2, x, y, z);
       }
   };
-  using Point = const Eigen::Vector2d&;
-  sum([&](double mm2, Point x, Point y, Point z) {
+  using Corner = const Eigen::Vector2d&;
+  sum([&](double mm2, Corner x, Corner y, Corner z) {
     area.mm2 += mm2;
     area.centroid += mm2 * (x + y + z) / 3;
   });
   area.centroid /= area.mm2;
   double inertia = 0;
-  sum([&](double mm2, Point x, Point y, Point z) {
+  sum([&](double mm2, Corner x, Corner y, Corner z) {
     const auto& o = area.centroid;
     inertia += mm2 / 12 *
                ((x - o).squaredNorm() + (y - o).squaredNorm() + (z - o).squaredNorm() +

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double parallel = 1e-8;
 constexpr double alike = 1e-6;      // velocities, relatively
-constexpr double rounding = 1e-11;  // of the force that loads could make
+constexpr double load_rounding = 1e-11;  // of the force that loads could make
 
 // l_m = ∫ b·N_m + ∫_{Γ_F} f·N_m, N.
 Eigen::VectorXd loads_on_motions(const Problem& problem) {
@@ -124,7 +124,7 @@ RigidContact rigid_contact(const Problem& problem) {
     contact.bodies.push_back(
         name_of_piece(problem.mesh, problem.free.piece_of_vertex, motion.piece));
   contact.loads_N = loads_on_motions(problem);
-  contact.rounding_N = rounding * load_scale(problem).force_N;
+  contact.rounding_N = load_rounding * load_scale(problem).force_N;
   std::vector<EndRow> rows;
   int face = 0;
   for (const std::vector<int>& chain : boundary_chains(problem.mesh, BoundaryRole::contact)) {

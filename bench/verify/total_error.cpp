@@ -6,8 +6,6 @@
 
 namespace airybench {
 
-constexpr double rounding = 1e-10;  // of ‖σ‖
-
 void TotalError::add(const ConstitutiveError& error, const std::string& step) {
   if (flaw_.empty() && !error.flaw.empty()) flaw_ = step + error.flaw;
   of_step_.push_back(
@@ -21,6 +19,7 @@ void TotalError::add(const ConstitutiveError& error, const std::string& step) {
 }
 
 bool TotalError::is_unloaded(int step) const {
+  constexpr double rounding = 1e-10;
   return steps() > 1 && of_step_[static_cast<std::size_t>(step)].norm < rounding * largest_norm_;
 }
 

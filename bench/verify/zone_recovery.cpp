@@ -10,8 +10,8 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// A contact node's law in the coordinates y of the zone.
-struct ContactState {
+// The law of a contact node in the coordinates y of the zone.
+struct NodeLaw {
   int first;                       // y_n; y_t follows
   double force_n, force_t, bound;  // F_n, F_t, μ|F_n|; N
   double to_wall_mm, to_rest_mm;   // of y_n, y_t
@@ -20,7 +20,7 @@ struct ContactState {
 
   // The next active set from y and the half gradient there; whether it differs.
   bool update(const Eigen::VectorXd& y, const Eigen::VectorXd& gradient) {
-    const ContactState before = *this;
+    const NodeLaw before = *this;
     is_closed = is_closed ? gradient(first) + force_n < 0 : y(first) > to_wall_mm;
     const double pull = gradient(first + 1) + force_t, ahead = y(first + 1) - to_rest_mm;
     if (sticks && std::abs(pull) > bound) {
@@ -71,7 +71,7 @@ class Zone {
     for (int step = 0; step < max_steps; ++step) {
       std::vector<bool> is_held = held_;
       Eigen::VectorXd given = Eigen::VectorXd::Zero(size()), force = gradient;
-      for (const ContactState& node : contact_) {
+      for (const NodeLaw& node : contact_) {
         force(node.first) += node.force_n;
         force(node.first + 1) += node.force_t + node.direction * node.bound;
         if ((is_held[node.first] = node.is_closed)) given(node.first) = node.to_wall_mm;
@@ -90,7 +90,7 @@ class Zone {
       y = factor.solve(b);
       const Eigen::VectorXd at_y = gradient + K_ * y;
       bool is_new = false;
-      for (ContactState& node : contact_) is_new |= node.update(y, at_y);
+      for (NodeLaw& node : contact_) is_new |= node.update(y, at_y);
       if (!is_new) break;
     }
     return y;
@@ -147,21 +147,21 @@ class Zone {
     to_displacement_.setFromTriplets(entries.begin(), entries.end());
   }
 
-  static ContactState state(const ContactNode& node, int first, const Eigen::Vector2d& apart) {
+  static NodeLaw state(const ContactNode& node, int first, const Eigen::Vector2d& apart) {
     const Eigen::Vector2d n = node.normal(), t(-n.y(), n.x());
     double limit = std::numeric_limits<double>::infinity();
     for (const Barrier& wall : node.walls) limit = std::min(limit, wall.limit / n.dot(wall.normal));
     const double F_n = n.dot(node.force), F_t = t.dot(node.force),
                  bound = node.friction * std::abs(F_n);
-    ContactState state = {first,
-                          F_n,
-                          F_t,
-                          bound,
-                          limit - n.dot(apart),
-                          node.offset.along(n).y() - t.dot(apart),
-                          F_n < 0,
-                          std::abs(F_t) < bound,
-                          0};
+    NodeLaw state = {first,
+                     F_n,
+                     F_t,
+                     bound,
+                     limit - n.dot(apart),
+                     node.offset.along(n).y() - t.dot(apart),
+                     F_n < 0,
+                     std::abs(F_t) < bound,
+                     0};
     if (!state.sticks && bound > 0) state.direction = F_t > 0 ? -1 : 1;
     return state;
   }
@@ -187,7 +187,7 @@ class Zone {
   std::vector<int> nodes_, number_;  // free nodes; node → place there, or −1
   Sparse to_displacement_, K_;       // B, Bᵀ K B
   std::vector<bool> held_;           // of y, whatever the contact does
-  std::vector<ContactState> contact_;
+  std::vector<NodeLaw> contact_;
 };
 
 }  // namespace

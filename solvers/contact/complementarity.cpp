@@ -10,7 +10,7 @@ namespace airybench {
 namespace {
 
 using Eigen::Index;
-constexpr double tie = 1e-11, least_pivot = 1e-8;
+constexpr double tied = 1e-11, least_pivot = 1e-8;
 
 // T x = 0 with x = (w, z, z0; 1, ε, …): the identity in the columns of the basis.
 class Tableau {
@@ -27,7 +27,7 @@ class Tableau {
     return *std::ranges::min_element(rows, [&](Index i, Index j) {
       const auto order = [&](Index column) {
         const double x = T_(i, column) / divisor(i), y = T_(j, column) / divisor(j);
-        return std::abs(x - y) <= tie * std::max({1., std::abs(x), std::abs(y)}) ? 0. : x - y;
+        return std::abs(x - y) <= tied * std::max({1., std::abs(x), std::abs(y)}) ? 0. : x - y;
       };
       for (Index k = artificial() + 1; k < T_.cols(); ++k)
         if (const double d = order(k); d != 0) return d < 0;
@@ -39,7 +39,7 @@ class Tableau {
   }
   bool is_negative(Index row) const {
     for (Index k = artificial() + 1; k < T_.cols(); ++k)
-      if (std::abs(T_(row, k)) > tie) return T_(row, k) < 0;
+      if (std::abs(T_(row, k)) > tied) return T_(row, k) < 0;
     return false;
   }
   // The variable that leaves.
