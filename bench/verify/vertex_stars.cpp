@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "assembly/small_cholesky.hpp"
 
@@ -20,9 +22,15 @@ VertexStars<k>::VertexStars(const Problem& problem, const std::vector<OfTriangle
     : problem_(problem),
       own_(own),
       held_(held),
+      order_(problem.mesh.vertices.size()),
       first_(problem.mesh.vertices.size() + 1, 0),
       triangle_(3 * own.size()),
       number_(held.size(), -1) {
+  std::iota(order_.begin(), order_.end(), 0);
+  std::ranges::sort(order_, {}, [&](int v) {
+    const Eigen::Vector2d& x = problem.mesh.vertices[v];
+    return std::pair(x.x(), x.y());
+  });
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   K_.reserve(own.size());
   for (int t = 0; t < static_cast<int>(own.size()); ++t) {
@@ -50,7 +58,7 @@ VertexStars<k>::VertexStars(const Problem& problem, const std::vector<OfTriangle
 
 template <int k>
 void VertexStars<k>::sweep(DisplacementField& w) {
-  for (int v = 0; v + 1 < static_cast<int>(first_.size()); ++v) improve(v, w);
+  for (const int v : order_) improve(v, w);
 }
 
 template <int k>

@@ -1,5 +1,6 @@
-// Block Gauss–Seidel over vertex stars on ‖σ − Aε(w)‖²: one vertex after another, the coefficients
-// of the vertex and its edges together. Those inside triangles are eliminated.
+// Block Gauss–Seidel over vertex stars on ‖σ − Aε(w)‖²: one vertex after another, by their places
+// and not their numbers, the coefficients of the vertex and its edges together. Those inside
+// triangles are eliminated.
 //
 // For ν near ½ a single coefficient can hardly move without changing the volume of its triangles,
 // which costs up to 1/(1 − 2ν) times its share. A star's displacements include some that keep the
@@ -38,6 +39,7 @@ class VertexStars {
   const std::vector<OfTriangle>& own_;
   const std::vector<bool>& held_;
   std::vector<Stiffness> K_;           // per triangle, of the outer nodes, without the inner ones
+  std::vector<int> order_;             // vertices by x, then y
   std::vector<int> first_, triangle_;  // triangles of vertex v from triangle_[first_[v]]
   std::vector<int> free_, number_;     // nodes of a star; node → place there, or −1
   std::vector<double> matrix_;
