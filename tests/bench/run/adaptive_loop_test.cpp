@@ -66,7 +66,7 @@ TEST(AdaptiveLoop, SeveralGoalsAreReachedOneAfterTheOther) {
   std::vector<AdaptiveLevel> reaching;
   for (const AdaptiveLevel& level : levels) {
     EXPECT_EQ(level.unknowns >= 5000, level.number == levels.back().number);
-    if (level.reaches_goal) reaching.push_back(level);
+    if (level.goal) reaching.push_back(level);
   }
   ASSERT_EQ(reaching.size(), 3u);
   EXPECT_LE(*reaching[0].error, 0.03);

@@ -32,7 +32,8 @@ struct Pair {
 
 // One block pressed on another, also beyond its ends, and sheared.
 Pair random_pair(Dice& dice) {
-  constexpr std::array frictions = {0., 0.1, 0.3, 0.6, 1.}, ratios = {0., 0.3, 0.45, 0.49};
+  constexpr std::array frictions = {0., 0.1, 0.3, 0.6, 1.};
+  constexpr std::array poisson = {0., 0.3, 0.45, 0.49};
   const auto any_of = [&](const auto& values) {
     return values[static_cast<std::size_t>(dice.below(static_cast<int>(values.size())))];
   };
@@ -51,7 +52,7 @@ Pair random_pair(Dice& dice) {
   scene.friction = any_of(frictions);
   scene.contacts = {{.between = {{{"contact:upper"}, {"contact:lower"}}}}};
   for (const char* body : {"lower", "upper"})
-    scene.materials[body] = {dice.between(1000, 100000), any_of(ratios)};
+    scene.materials[body] = {dice.between(1000, 100000), any_of(poisson)};
   const auto moved = [&](const char* label, const Eigen::Vector2d& u0) {
     scene.boundary[label].displacement_mm = LinearValue<Eigen::Vector2d>{{u0, u0}};
   };
