@@ -116,7 +116,7 @@ std::vector<std::string> split_method_list(std::string_view list) {
 std::vector<Method> at_degree(std::vector<Method> methods, int degree) {
   for (Method& method : methods)
     if (const std::string& name = method.name;
-        name == "HYBRID" || name == "HYBRID:CHOLMOD" || name == "HYBRID:MUMPS")
+        degree > 1 && (name == "HYBRID" || name == "HYBRID:CHOLMOD" || name == "HYBRID:MUMPS"))
       method = method_of_general_name(name + (name == "HYBRID" ? ":k=" : ",k=") +
                                       std::to_string(degree));
   return methods;
