@@ -140,7 +140,10 @@ class Recovery {
  public:
   Recovery(const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
            const Eigen::MatrixXd& edge_moments)
-      : problem_(*system.problem), own_(stress.size()), constraints_(system, k, F_C) {
+      : problem_(*system.problem),
+        own_(stress.size()),
+        constraints_(system, k, F_C),
+        energy_Nmm_(stress_norm_squared(*system.problem, stress) / 2) {
     static const OwnDisplacement<k> own_displacement;
     const int nodes = displacement_nodes(problem_, k + 1);
     w_ = DisplacementField::Zero(2, nodes);
@@ -200,12 +203,13 @@ class Recovery {
 
   // Zones, while there is more to gain than a share of the distance. What is true error stays in
   // thin triangles, too: a zone is worth another one only if it has lowered the distance by far.
-  // The last step puts w behind the walls.
+  // The last step puts w behind the walls. A distance that is rounding is left.
   void improve_where_needed() {
-    constexpr double share = 0.25, far = 10;
+    constexpr double share = 0.25, far = 10, rounding = 1e-16;
     constexpr int max_zones = 4;
     JacobiStep now = step();
-    bool is_needed = now.gain_Nmm.sum() > share * now.distance_Nmm;
+    bool is_needed =
+        now.gain_Nmm.sum() > share * now.distance_Nmm && now.distance_Nmm > rounding * energy_Nmm_;
     for (int zones = 1; is_needed; ++zones) {
       improve_zone_of(now);
       JacobiStep next = step();
@@ -253,6 +257,7 @@ class Recovery {
   const Problem& problem_;
   std::vector<LocalCoefficients<k>> own_;  // per triangle: w_T
   DisplacementConstraints constraints_;
+  double energy_Nmm_;  // of the stresses
   DisplacementField w_;
   Eigen::VectorXd stiffness_;  // per node, of a Jacobi step
 };
