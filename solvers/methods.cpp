@@ -113,13 +113,13 @@ std::vector<std::string> split_method_list(std::string_view list) {
   return items;
 }
 
-std::vector<Method> at_degree(std::vector<Method> methods, int degree) {
-  for (Method& method : methods)
-    if (const std::string& name = method.name;
-        degree > 1 && (name == "HYBRID" || name == "HYBRID:CHOLMOD" || name == "HYBRID:MUMPS"))
-      method = method_of_general_name(name + (name == "HYBRID" ? ":k=" : ",k=") +
+static Method at_degree(const Method& method, int degree) {
+  const std::string& name = method.name;
+  const bool has_degrees = name == "HYBRID" || name == "HYBRID:CHOLMOD" || name == "HYBRID:MUMPS";
+  return degree == 1 || !has_degrees
+             ? method
+             : method_of_general_name(name + (name == "HYBRID" ? ":k=" : ",k=") +
                                       std::to_string(degree));
-  return methods;
 }
 
 namespace {
@@ -134,7 +134,8 @@ std::string valid_names(const std::vector<Method>& table) {
 
 }  // namespace
 
-std::vector<Method> select_methods(std::string_view selection, const std::vector<Method>& others) {
+std::vector<Method> select_methods(std::string_view selection, const std::vector<Method>& others,
+                                   int degree) {
   std::vector<Method> table = methods();
   table.insert(table.end(), others.begin(), others.end());
   std::vector<bool> selected(table.size(), false);
@@ -159,7 +160,7 @@ std::vector<Method> select_methods(std::string_view selection, const std::vector
     if (!there) result.push_back(method);
   };
   for (std::size_t i = 0; i < selected.size(); ++i)
-    if (selected[i]) add(table[i]);
+    if (selected[i]) add(at_degree(table[i], degree));
   for (const Method& method : more) add(method);
   if (result.empty()) throw std::invalid_argument("no method is named");
   return result;

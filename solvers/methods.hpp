@@ -25,10 +25,11 @@ Method condensed_contact();
 //   SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1]
 //   ALM:r=<r>,rho=<rho>
 //   HYBRID:k=<degree>, HYBRID:CHOLMOD,k=<degree>, HYBRID:MUMPS,k=<degree>
-// others: stand behind the table's. Throws std::invalid_argument: one line with the item that
-// matches nothing and what is valid.
+// others: stand behind the table's. degree: of the stresses of HYBRID, HYBRID:CHOLMOD and
+// HYBRID:MUMPS, unless a name states its own ("HYBRID:k=1"). Throws std::invalid_argument: one line
+// with the item that matches nothing and what is valid.
 std::vector<Method> select_methods(std::string_view selection,
-                                   const std::vector<Method>& others = {});
+                                   const std::vector<Method>& others = {}, int degree = 1);
 
 // Commas part the items, but for those inside a general name: "ALM:r=20,rho=32" is one.
 std::vector<std::string> split_method_list(std::string_view list);
@@ -36,9 +37,6 @@ std::vector<std::string> split_method_list(std::string_view list);
 // "HYBRID", "HYBRID:k=2", …, up to the highest degree of stresses.
 std::string hybrid_of_degree(int degree);
 extern const int highest_degree;
-// With HYBRID, HYBRID:CHOLMOD and HYBRID:MUMPS in stresses of this degree, unless a name states its
-// own ("HYBRID:k=1").
-std::vector<Method> at_degree(std::vector<Method> methods, int degree);
 // "P2", "P3", "P4": of the displacements, whose stresses have one degree less.
 std::string displacements_of_degree(int degree);
 

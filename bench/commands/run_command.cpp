@@ -127,13 +127,14 @@ void print_warnings(const std::vector<std::string>& of_machine, const EarlyPasse
 
 // The paper's methods are for its meshes: on another body they give the picture of HYBRID, later,
 // and cannot solve bodies with holes.
-std::vector<Method> methods_by_name(const std::vector<PosedScene>& scenes, const Options& options) {
+std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
   std::vector<Method> others = other_programs(options);
   if (!options.problems.empty()) {
     others.insert(others.begin(), condensed_contact());
     return options.methods.empty() ? others : select_methods(options.methods, others);
   }
-  if (!options.methods.empty()) return select_methods(options.methods, others);
+  const int degree = options.degree.value_or(1);
+  if (!options.methods.empty()) return select_methods(options.methods, others, degree);
   std::string names = default_methods(options.study);
   const auto is_own = [](const PosedScene& s) {
     return !is_named_after_catalogue(mesh_name_of(s.problem));
@@ -143,12 +144,7 @@ std::vector<Method> methods_by_name(const std::vector<PosedScene>& scenes, const
   if (!others.empty() && options.study.name.empty())  // next to what they are to beat
     names = std::ranges::any_of(scenes, is_own) ? own_body_methods : "HYBRID";
   if (!others.empty()) names += ",EXTERNAL:*";
-  return select_methods(names, others);
-}
-
-std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
-  std::vector<Method> methods = methods_by_name(scenes, options);
-  return options.degree ? at_degree(std::move(methods), *options.degree) : methods;
+  return select_methods(names, others, degree);
 }
 
 std::vector<PosedScene> levels_of(const std::vector<PosedScene>& scenes, const Options& options,

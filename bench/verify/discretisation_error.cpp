@@ -214,10 +214,11 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   note_bounds<k>(system, fields, highest_gap, error);
   // Where the mesh lets bodies miss each other, û may know better: then all is error.
   const LoadScale scale = load_scale(problem);
-  const double of_stress = std::sqrt(2 * fields.energy), of_u = std::sqrt(2 * fields.energy_of_u);
-  error.norm = scale.is_no_energy(of_stress) ? of_u : of_stress;
+  error.stress_norm = std::sqrt(2 * fields.energy);
+  const double size =
+      scale.is_no_energy(error.stress_norm) ? std::sqrt(2 * fields.energy_of_u) : error.stress_norm;
   const auto relative = [&](double squared) {  // below 0 it is rounding of this size
-    return scale.relative_energy(std::sqrt(std::abs(squared)), error.norm);
+    return scale.relative_energy(std::sqrt(std::abs(squared)), size);
   };
   error.relative = relative(error.squared_Nmm());
   error.relative_of_mean = relative(error.squared_of_mean_Nmm());

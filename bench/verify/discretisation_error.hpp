@@ -40,11 +40,11 @@ struct ConstitutiveError {
   // remove it. Such a σ is not admissible, so nothing is guaranteed.
   double beyond_wall_Nmm = 0;
   std::vector<double> of_triangle_Nmm;  // sum to e²; contact terms count for their triangles
-  double norm = 0;                      // ‖σ‖; without stress ‖ε(û)‖, √(N mm)
-  double relative = 0;                  // e / norm; where that is rounding, relative to the loads
-  double relative_of_mean = 0;          // the same for ½(σ + Aε(u))
-  double lower_bound_Nmm = 0;           // −Π*(σ) minus an allowance for rounding
-  double upper_bound_Nmm = 0;           // Π(u) plus that allowance
+  double stress_norm = 0;               // ‖σ‖, √(N mm)
+  double relative = 0;  // e / ‖σ‖; without stress e / ‖ε(û)‖, or relative to the loads
+  double relative_of_mean = 0;  // the same for ½(σ + Aε(u))
+  double lower_bound_Nmm = 0;   // −Π*(σ) minus an allowance for rounding
+  double upper_bound_Nmm = 0;   // Π(u) plus that allowance
   // e and both bounds hold: no friction, no flaw, and no wall that curves or ends along an edge.
   bool guaranteed = false;
   // Why a field is not admissible and e is no error; empty if it is one. Example: u0 pushes an end

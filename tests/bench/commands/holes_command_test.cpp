@@ -92,7 +92,7 @@ TEST_F(HolesCommand, StudiesGoAroundThem) {
 TEST_F(HolesCommand, AnAdaptedMeshReachesItsGoalAndKeepsItsHole) {
   for (const auto& [mesh, goal] : {std::pair("plate", 0.05), {"pin", 0.1}}) {
     ASSERT_EQ(
-        bench(std::string("--mesh=") + mesh + ".msh --scene=flat.json --method=HYBRID,P2 " +
+        bench(std::string("--mesh=") + mesh + ".msh --scene=flat.json --method=HYBRID " +
               "--repetitions=1 --out=o --adapt=levels=last," + std::to_string(100 * goal) + "%"),
         0)
         << complaint();

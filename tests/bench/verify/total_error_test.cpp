@@ -12,7 +12,7 @@ ConstitutiveError error_of(double first, double second, double norm) {
   ConstitutiveError error;
   error.of_triangle_Nmm = {first, second};
   error.body_Nmm = first + second;
-  error.norm = norm;
+  error.stress_norm = norm;
   error.relative = std::sqrt(error.squared_Nmm()) / norm;
   return error;
 }
