@@ -202,9 +202,9 @@ static void note_dissipation_of_half_steps(Record& record) {
   };
   add_up(record.steps, own);
   add_up(record.steps_in_halves, halved);
-  constexpr double rounding = 1e-9;
+  constexpr double of_rounding = 1e-9;
   for (double* sum : {&own, &halved})
-    if (std::abs(*sum) < rounding * energy) *sum = 0;
+    if (std::abs(*sum) < of_rounding * energy) *sum = 0;
   if (std::abs(own - halved) > seen * std::max({own, halved, min_share * energy}))
     add_reason(
         fmt::format("with every load step in two halves friction dissipates {:.3g} N mm, not "
