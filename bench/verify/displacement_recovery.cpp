@@ -118,13 +118,15 @@ void set_inner(const Problem& problem, const std::vector<LocalCoefficients<k>>& 
 template <int k>
 constexpr double damping = 2.4 / (k + 3);
 
-// Neighbours hold one another in triangles whose height is below this share of their longest side.
-constexpr double thin = 0.2;
+// Neighbours hold one another, so that single coefficients hardly move: in triangles whose height
+// is below this share of their longest side, or whose bulk modulus is above so many shear moduli.
+constexpr double thin = 0.2, incompressible = 1000;
 
-bool is_thin(const TriangleShape& shape) {
+bool is_stiff(const TriangleShape& shape, const Eigen::Matrix3d& compliance) {
   const auto &a = shape.B.col(0), &b = shape.B.col(1);
   const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm()});
-  return 2 * shape.area_mm2 < thin * longest;
+  return 2 * shape.area_mm2 < thin * longest ||
+         compliance(2, 2) > incompressible * 2 * (compliance(0, 0) + compliance(0, 1));
 }
 
 // A damped Jacobi step on ½ e².
@@ -132,7 +134,8 @@ struct JacobiStep {
   DisplacementField w;
   Eigen::Matrix2Xd gradient;  // before the step, of `distance`; N
   double distance_Nmm = 0;    // there: ½ Σ (w − w_T)ᵀ K_T (w − w_T)
-  Eigen::VectorXd gain_Nmm;  // per node: what can be gained of it, by the step or in thin triangles
+  Eigen::VectorXd
+      gain_Nmm;  // per node: what can be gained of it, by the step or in stiff triangles
 };
 
 template <int k>
@@ -191,7 +194,7 @@ class Recovery {
         distance += force.col(m).dot(w_.col(nodes[m]) - own_[t].col(m)) / 2;
       }
       result.distance_Nmm += distance;
-      if (is_thin(shape))
+      if (is_stiff(shape, problem_.compliance_of(t)))
         for (const int node : nodes) result.gain_Nmm(node) += distance / Triangle<k>::nodes;
     });
     result.w = w_.array() - result.gradient.array().rowwise() / stiffness_.transpose().array();
@@ -202,7 +205,7 @@ class Recovery {
   }
 
   // Zones, while there is more to gain than a share of the distance. What is true error stays in
-  // thin triangles, too: a zone is worth another one only if it has lowered the distance by far.
+  // stiff triangles, too: a zone is worth another one only if it has lowered the distance by far.
   // The last step puts w behind the walls. A distance that is rounding is left.
   void improve_where_needed() {
     constexpr double share = 0.25, far = 10, rounding = 1e-16;
