@@ -215,8 +215,9 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   // Where the mesh lets bodies miss each other, û may know better: then all is error.
   const LoadScale scale = load_scale(problem);
   error.stress_norm = std::sqrt(2 * fields.energy);
+  error.displacement_norm = std::sqrt(2 * fields.energy_of_u);
   const double size =
-      scale.is_no_energy(error.stress_norm) ? std::sqrt(2 * fields.energy_of_u) : error.stress_norm;
+      scale.is_no_energy(error.stress_norm) ? error.displacement_norm : error.stress_norm;
   const auto relative = [&](double squared) {  // below 0 it is rounding of this size
     return scale.relative_energy(std::sqrt(std::abs(squared)), size);
   };

@@ -40,7 +40,7 @@ struct ConstitutiveError {
   // remove it. Such a σ is not admissible, so nothing is guaranteed.
   double beyond_wall_Nmm = 0;
   std::vector<double> of_triangle_Nmm;  // sum to e²; contact terms count for their triangles
-  double stress_norm = 0;               // ‖σ‖, √(N mm)
+  double stress_norm = 0, displacement_norm = 0;  // ‖σ‖, ‖Aε(u)‖; √(N mm)
   double relative = 0;  // e / ‖σ‖; without stress e / ‖ε(û)‖, or relative to the loads
   double relative_of_mean = 0;  // the same for ½(σ + Aε(u))
   double lower_bound_Nmm = 0;   // −Π*(σ) minus an allowance for rounding

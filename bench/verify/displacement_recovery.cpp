@@ -206,13 +206,13 @@ class Recovery {
 
   // Zones, while there is more to gain than a share of the distance. What is true error stays in
   // stiff triangles, too: a zone is worth another one only if it has lowered the distance by far.
-  // The last step puts w behind the walls. A distance that is rounding is left.
+  // The last step puts w behind the walls. A millionth of ‖σ‖ is not worth it.
   void improve_where_needed() {
-    constexpr double share = 0.25, far = 10, rounding = 1e-16;
+    constexpr double share = 0.25, far = 10, negligible = 1e-12;
     constexpr int max_zones = 4;
     JacobiStep now = step();
-    bool is_needed =
-        now.gain_Nmm.sum() > share * now.distance_Nmm && now.distance_Nmm > rounding * energy_Nmm_;
+    bool is_needed = now.gain_Nmm.sum() > share * now.distance_Nmm &&
+                     now.distance_Nmm > negligible * energy_Nmm_;
     for (int zones = 1; is_needed; ++zones) {
       improve_zone_of(now);
       JacobiStep next = step();

@@ -19,8 +19,10 @@ void TotalError::add(const ConstitutiveError& error, const std::string& step) {
 }
 
 bool TotalError::is_unloaded(int step) const {
-  constexpr double rounding = 1e-10;
-  return steps() > 1 && of_step_[static_cast<std::size_t>(step)].norm < rounding * largest_norm_;
+  constexpr double rounding = 1e-10, recovered = 1e-6;
+  const Step& own = of_step_[static_cast<std::size_t>(step)];
+  return steps() > 1 && own.stress_norm < rounding * largest_norm_ &&
+         own.displacement_norm < recovered * largest_norm_;
 }
 
 std::optional<double> TotalError::relative(int step) const {

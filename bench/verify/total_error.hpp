@@ -17,7 +17,8 @@ class TotalError {
   void add(const ConstitutiveError& error, const std::string& step);
 
   int steps() const { return static_cast<int>(of_step_.size()); }
-  // A step whose stresses are rounding next to those of others: nothing is relative to them.
+  // A step whose stresses are rounding next to those of others, and hardly more in the
+  // displacements: nothing is relative to them.
   bool is_unloaded(int step) const;
   // e / ‖σ‖; empty: the step is unloaded, or its fields are not admissible.
   std::optional<double> relative(int step) const;
@@ -30,7 +31,7 @@ class TotalError {
 
  private:
   struct Step {
-    double norm;  // ‖σ‖, √(N mm)
+    double stress_norm, displacement_norm;  // √(N mm)
     std::optional<double> relative;
   };
   std::vector<Step> of_step_;
