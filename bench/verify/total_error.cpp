@@ -8,8 +8,8 @@ namespace airybench {
 
 void TotalError::add(const ConstitutiveError& error, const std::string& step) {
   if (flaw_.empty() && !error.flaw.empty()) flaw_ = step + error.flaw;
-  of_step_.push_back(
-      {error.stress_norm, error.flaw.empty() ? std::optional(error.relative) : std::nullopt});
+  of_step_.push_back({error.stress_norm, error.displacement_norm,
+                      error.flaw.empty() ? std::optional(error.relative) : std::nullopt});
   largest_norm_ = std::max(largest_norm_, error.stress_norm);
   parts_.resize(error.of_triangle_Nmm.size());
   const double squared = error.squared_Nmm();
