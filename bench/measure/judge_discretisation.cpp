@@ -112,7 +112,9 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
       result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
       result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
     }
-    result.total.add(result.error, prefix_of(step));
+    result.total.add(
+        result.error, prefix_of(step),
+        bound == Bound::displacement ? TotalError::Of::displacements : TotalError::Of::stresses);
     result.of_steps.push_back(bounds(result.error));
     result.intervals.reset();
     if (bound == Bound::displacement || !result.error.flaw.empty() || !wants_intervals(degree))
@@ -144,7 +146,7 @@ void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Rec
                          steps[static_cast<std::size_t>(step)].displacement;
                      error = constitutive_error(posed, own.stress, own.F_C,
                                                 admissible_displacement(posed, own.F_C, u));
-                     total.add(error, prefix_of(step));
+                     total.add(error, prefix_of(step), TotalError::Of::displacements);
                      of_steps.push_back(bounds(error));
                    });
   add_errors(total, of_steps);

@@ -6,11 +6,12 @@
 
 namespace airybench {
 
-void TotalError::add(const ConstitutiveError& error, const std::string& step) {
+void TotalError::add(const ConstitutiveError& error, const std::string& step, Of answer) {
   if (flaw_.empty() && !error.flaw.empty()) flaw_ = step + error.flaw;
-  of_step_.push_back({error.stress_norm, error.displacement_norm,
-                      error.flaw.empty() ? std::optional(error.relative) : std::nullopt});
-  largest_norm_ = std::max(largest_norm_, error.stress_norm);
+  const double norm = answer == Of::stresses ? error.stress_norm
+                                             : std::max(error.stress_norm, error.displacement_norm);
+  of_step_.push_back({norm, error.flaw.empty() ? std::optional(error.relative) : std::nullopt});
+  largest_norm_ = std::max(largest_norm_, norm);
   parts_.resize(error.of_triangle_Nmm.size());
   const double squared = error.squared_Nmm();
   if (!(squared > 0) || is_unloaded(steps() - 1)) return;
@@ -19,10 +20,8 @@ void TotalError::add(const ConstitutiveError& error, const std::string& step) {
 }
 
 bool TotalError::is_unloaded(int step) const {
-  constexpr double rounding = 1e-10, recovered = 1e-6;
-  const Step& own = of_step_[static_cast<std::size_t>(step)];
-  return steps() > 1 && own.stress_norm < rounding * largest_norm_ &&
-         own.displacement_norm < recovered * largest_norm_;
+  constexpr double rounding = 1e-10;
+  return steps() > 1 && of_step_[static_cast<std::size_t>(step)].norm < rounding * largest_norm_;
 }
 
 std::optional<double> TotalError::relative(int step) const {

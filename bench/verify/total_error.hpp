@@ -13,12 +13,14 @@ namespace airybench {
 
 class TotalError {
  public:
-  // step: "load step 2 of 3: ", for flaw().
-  void add(const ConstitutiveError& error, const std::string& step);
+  // step: "load step 2 of 3: ", for flaw(). Whose answer is judged: the stresses', or the
+  // displacements', which were not recovered from the stresses.
+  enum class Of { stresses, displacements };
+  void add(const ConstitutiveError& error, const std::string& step, Of answer = Of::stresses);
 
   int steps() const { return static_cast<int>(of_step_.size()); }
-  // A step whose stresses are rounding next to those of others, and hardly more in the
-  // displacements: nothing is relative to them.
+  // A step whose answer has stresses that are rounding next to those of others: nothing is relative
+  // to them.
   bool is_unloaded(int step) const;
   // e / ‖σ‖; empty: the step is unloaded, or its fields are not admissible.
   std::optional<double> relative(int step) const;
@@ -31,7 +33,7 @@ class TotalError {
 
  private:
   struct Step {
-    double stress_norm, displacement_norm;  // √(N mm)
+    double norm;  // of the answer's stresses, √(N mm)
     std::optional<double> relative;
   };
   std::vector<Step> of_step_;
