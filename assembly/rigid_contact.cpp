@@ -15,7 +15,7 @@ namespace airybench {
 namespace {
 
 constexpr double parallel = 1e-8;
-constexpr double alike = 1e-6;      // velocities, relatively
+constexpr double alike = 1e-6;           // velocities, relatively
 constexpr double load_rounding = 1e-11;  // of the force that loads could make
 
 // l_m = ∫ b·N_m + ∫_{Γ_F} f·N_m, N.
