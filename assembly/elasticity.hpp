@@ -29,4 +29,9 @@ inline Eigen::Matrix3d compliance(const Material& material, Plane plane) {
   return c / young;
 }
 
+// Bulk over shear modulus of plane fields: 1 / (1 − 2ν) in plane strain.
+inline double bulk_over_shear(const Eigen::Matrix3d& compliance) {
+  return compliance(2, 2) / (2 * (compliance(0, 0) + compliance(0, 1)));
+}
+
 }  // namespace airybench

@@ -126,6 +126,7 @@ RigidContact rigid_contact(const Problem& problem) {
   contact.loads_N = loads_on_motions(problem);
   contact.rounding_N = load_rounding * load_scale(problem).force_N;
   std::vector<EndRow> rows;
+  std::vector<char> seen(problem.mesh.boundary.size());  // edges, or the ones opposite
   int face = 0;
   for (const std::vector<int>& chain : boundary_chains(problem.mesh, BoundaryRole::contact)) {
     Eigen::Vector2d before = Eigen::Vector2d::Zero();
@@ -135,7 +136,8 @@ RigidContact rigid_contact(const Problem& problem) {
           edge_frame(problem.mesh.vertices[a], problem.mesh.vertices[b]).tangent;
       if ((along - before).norm() > straight) ++face;
       before = along;
-      if (problem.is_second_of_pair(row)) continue;
+      if (seen[row]) continue;
+      if (const int other = problem.opposite_of(row); other != Problem::no_row) seen[other] = 1;
       for (const int end : {0, 1})
         if (std::optional<EndRow> resisting = end_row(problem, row, end, face))
           rows.push_back(std::move(*resisting));

@@ -21,7 +21,7 @@ std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
 }
 
 bool Judge::wants_intervals(int degree) const {
-  return degree > 1 || !options_.adapt.empty() || options_.fields || options_.study.bounds;
+  return degree > 1 || !options_.adapt.empty() || options_.fields || options_.study.intervals;
 }
 
 const Judge::Discretisation* Judge::discretisation(Bound bound, int degree) {

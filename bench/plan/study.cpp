@@ -86,7 +86,7 @@ Study study_of(const std::filesystem::path& file) {
                key("scenes", study.scenes),
                key("once", study.once),
                key("condition", study.condition),
-               key("bounds", study.bounds)});
+               key("intervals", study.intervals)});
   return study;
 }
 

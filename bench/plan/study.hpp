@@ -8,7 +8,7 @@
 //   "scenes": "stability"    folder of the scene files, next to this file
 //   "once": true             each case is timed once
 //   "condition": true        records have the condition number of the factorised matrix
-//   "bounds": true           records have bounds of the total error
+//   "intervals": true        records have intervals of the contact forces
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ struct Study {
   // accuracy: a case per value of Method::knob; contact: per contact solver; threads: per number.
   enum class Points { one, accuracy, contact, threads } points = Points::one;
   std::vector<std::pair<std::string, std::string>> options;
-  bool once = false, condition = false, bounds = false;
+  bool once = false, condition = false, intervals = false;
 };
 
 Study study_of(const std::filesystem::path& file);  // throws FileError

@@ -42,6 +42,12 @@ Cell whole(const std::optional<std::int64_t>& value) {
 }
 Cell named(std::string text) { return {{}, std::move(text)}; }
 
+// Its square is a difference of energies at contact: below this it is rounding.
+Cell total_error(const std::optional<double>& value) {
+  constexpr double rounding = 1e-7;
+  return value && *value < rounding ? named("≤ " + show_error(value)) : amount(value);
+}
+
 // Time without the method's own error check and refinement.
 std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
@@ -87,7 +93,7 @@ constexpr std::array<TableColumn, 27> table_columns = {{
     {"Siconos", CellKind::error, Shown::with_field, "siconos_error",
      [](const Record& r) { return amount(r.siconos_error); }},
     {"error total", CellKind::error, Shown::with_field, "error_total",
-     [](const Record& r) { return amount(r.error_total); }},
+     [](const Record& r) { return total_error(r.error_total); }},
     // What bodies solved in displacements are asked.
     {"penetration", CellKind::mm, Shown::with_field, "penetration_mm",
      [](const Record& r) { return amount(r.penetration_mm); }},

@@ -125,8 +125,7 @@ constexpr double thin = 0.2, incompressible = 1000;
 bool is_stiff(const TriangleShape& shape, const Eigen::Matrix3d& compliance) {
   const auto &a = shape.B.col(0), &b = shape.B.col(1);
   const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm()});
-  return 2 * shape.area_mm2 < thin * longest ||
-         compliance(2, 2) > incompressible * 2 * (compliance(0, 0) + compliance(0, 1));
+  return 2 * shape.area_mm2 < thin * longest || bulk_over_shear(compliance) > incompressible;
 }
 
 // A damped Jacobi step on ½ e².
@@ -146,7 +145,7 @@ class Recovery {
       : problem_(*system.problem),
         own_(stress.size()),
         constraints_(system, k, F_C),
-        energy_Nmm_(stress_norm_squared(*system.problem, stress) / 2) {
+        stress_(stress) {
     static const OwnDisplacement<k> own_displacement;
     const int nodes = displacement_nodes(problem_, k + 1);
     w_ = DisplacementField::Zero(2, nodes);
@@ -212,7 +211,7 @@ class Recovery {
     constexpr int max_zones = 4;
     JacobiStep now = step();
     bool is_needed = now.gain_Nmm.sum() > share * now.distance_Nmm &&
-                     now.distance_Nmm > negligible * energy_Nmm_;
+                     now.distance_Nmm > negligible * stress_norm_squared(problem_, stress_) / 2;
     for (int zones = 1; is_needed; ++zones) {
       improve_zone_of(now);
       JacobiStep next = step();
@@ -260,7 +259,7 @@ class Recovery {
   const Problem& problem_;
   std::vector<LocalCoefficients<k>> own_;  // per triangle: w_T
   DisplacementConstraints constraints_;
-  double energy_Nmm_;  // of the stresses
+  const StressField& stress_;
   DisplacementField w_;
   Eigen::VectorXd stiffness_;  // per node, of a Jacobi step
 };

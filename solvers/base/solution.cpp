@@ -1,5 +1,6 @@
 #include "solvers/base/solution.hpp"
 
+#include <cmath>
 #include <sstream>
 
 namespace airybench {
@@ -18,6 +19,11 @@ void stop_unconverged(const std::string& iteration, bool is_finite, const std::s
 void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution) {
   solution.error_estimate = estimate;
   if (solution.status != Status::ok || estimate <= control.target_error) return;
+  if (std::isnan(estimate)) {
+    solution.status = Status::breakdown;
+    solution.message = "its own estimate of its error is not a number";
+    return;
+  }
   std::ostringstream message;
   message << "by its own estimate its error is " << estimate << " (target " << control.target_error
           << ")";

@@ -46,7 +46,8 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
                                       const Deadline& deadline = {});
 
 // How wrong F is, with displacements ū_C that belong to it and are more accurate than D F − G. One
-// more step gives ΔF, the error to first order, where the statuses are right.
+// more step gives ΔF, the error to first order, where the statuses are right. Where it has none, as
+// on a slope as steep as friction, ΔF is the natural map, in N.
 struct ContactCheck {
   double energy_norm = 0;  // √(ΔFᵀ D ΔF), √(N mm); it is in the stresses, too
   double relative = 0;     // the larger of ‖ΔF‖_D / ‖F‖_D and ‖natural map‖ / ‖F‖

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "solvers/contact/released_bodies.hpp"
 
@@ -81,11 +82,20 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
       if (left <= balanced || (left <= nearly_balanced && left > before / 2)) break;
       before = left;
     }
-    // m N Nᵀ has cost digits of D: firmer springs take the error out of a that this has left.
-    for (; m > least; m /= 100) solve_held(m);
+    // m N Nᵀ has cost digits of D: firmer springs take the error out of a that this has left. F
+    // solves the problem without springs, too: r is the same.
+    const auto settle = [&](double spring) {
+      double left = std::numeric_limits<double>::infinity(), last = left;
+      do {
+        last = std::exchange(left, solve_held(spring).relative);
+      } while (left > nearly_balanced && left <= last / 2);
+    };
+    for (; m > least; m /= 100) settle(m);
     from_here.acceptable = options.acceptable;
+    settle(least);
+  } else {
+    solve_held(0);
   }
-  solve_held(0);
   const Unbalanced left(N, l, result.F_C, rigid.rounding_N);
   if (result.converged && left.relative > enough) {
     if (unsolved == 0) throw_not_held(free, left_N);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solvers/loading/load_steps.hpp"
@@ -47,6 +50,20 @@ inline Scene weighing(double N_per_mm3) {
   scene.displacement_mm = {0, 0};
   scene.body_force_N_per_mm3 = {0, -N_per_mm3};
   return scene;
+}
+
+// About the origin.
+inline Mesh turned(Mesh mesh, double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  for (Eigen::Vector2d& x : mesh.vertices)
+    x = {std::cos(angle) * x.x() - std::sin(angle) * x.y(),
+         std::sin(angle) * x.x() + std::cos(angle) * x.y()};
+  return mesh;
+}
+
+inline FlatWall turned_floor(double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return {{0, 0}, {-std::sin(angle), std::cos(angle)}};
 }
 
 }  // namespace airybench::testing

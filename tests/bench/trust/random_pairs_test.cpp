@@ -23,7 +23,7 @@ namespace {
 using testing::Dice;
 using testing::SolvedScene;
 
-constexpr int pairs = testing::sanitized ? 2 : 24;
+constexpr int pairs = testing::sanitized ? 2 : 12;
 
 struct Pair {
   Mesh mesh;
