@@ -207,7 +207,7 @@ class Recovery {
   // stiff triangles, too: a zone is worth another one only if it has lowered the distance by far.
   // The last step puts w behind the walls. A millionth of ‖σ‖ is not worth it.
   void improve_where_needed() {
-    constexpr double share = 0.25, far = 10, negligible = 1e-12;
+    constexpr double share = 0.15, far = 10, negligible = 1e-12;
     constexpr int max_zones = 4;
     JacobiStep now = step();
     bool is_needed = now.gain_Nmm.sum() > share * now.distance_Nmm &&

@@ -21,7 +21,7 @@ void judge_by_own_estimate(double estimate, const RunControl& control, Solution&
   if (solution.status != Status::ok || estimate <= control.target_error) return;
   if (std::isnan(estimate)) {
     solution.status = Status::breakdown;
-    solution.message = "its own estimate of its error is not a number";
+    solution.message = "its own estimate of its error is not finite";
     return;
   }
   std::ostringstream message;

@@ -9,9 +9,9 @@ from pathlib import Path
 RUN = Path(__file__).resolve().parents[2] / "run"
 
 
-def function(name: str) -> str:
-    """The text of a function of ./run."""
-    return re.search(rf"^{name}\(\) [({{].*?^[)}}]$", RUN.read_text(encoding="utf-8"), re.M | re.S)[0]
+# The text of its functions.
+FUNCTIONS = "\n".join(re.findall(r"^\w+\(\) (?:[({] *(?:#[^\n]*)?\n.*?^[)}]|\{[^\n]*\})$",
+                               RUN.read_text(encoding="utf-8"), re.M | re.S))
 
 
 class RunScriptTest(unittest.TestCase):
@@ -24,12 +24,12 @@ class RunScriptTest(unittest.TestCase):
             tree = Path(folder, "build", "release")
             tree.mkdir(parents=True)
             (tree / ".ninja_log").touch()
-            script = f"set -euo pipefail\nproject='{folder}'\n{function(name)}\n{name} \"$@\""
+            script = f"set -euo pipefail\nproject='{folder}'\n{FUNCTIONS}\n{name} \"$@\""
             return subprocess.run(["bash", "-c", script, "run", *arguments], text=True, capture_output=True,
                                   env={"PATH": f"{folder}:/usr/bin:/bin", **environment}, check=False)
 
     def names_a_model(self, *arguments: str, folder: str = ".") -> bool:
-        script = f"set -euo pipefail\n{function('names_a_model')}\nnames_a_model \"$@\""
+        script = f"set -euo pipefail\n{FUNCTIONS}\nnames_a_model \"$@\""
         status = subprocess.run(["bash", "-c", script, "run", *arguments], cwd=folder).returncode
         self.assertIn(status, (0, 1))
         return status == 0
@@ -62,6 +62,44 @@ esac"""
         for planned, said in ((":", ""), ("echo '[3/4] Building CXX object a.cpp.o'", "[1/4] Building\n")):
             ran = self.call("build", "release", "bench", stubs={"cmake": ninja % planned})
             self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "", said))
+
+    def test_a_dry_run_tells_what_is_to_be_compiled(self) -> None:
+        """Globs that Ninja checks would hide it: it begins and ends with CMake then."""
+        for file in RUN.parent.rglob("CMakeLists.txt"):
+            if "build" not in file.relative_to(RUN.parent).parts:
+                self.assertNotIn("CONFIGURE_DEPENDS RELATIVE", file.read_text(encoding="utf-8"), file)
+
+    def test_of_two_at_once_one_builds_and_the_other_waits(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            stub = folder / "cmake"
+            stub.write_text(f"""#!/bin/sh
+case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo end >> {folder}/log ;; esac
+""", encoding="utf-8")
+            stub.chmod(0o755)
+            (folder / "build/release").mkdir(parents=True)
+            (folder / "build/release/.ninja_log").touch()
+            script = f"set -euo pipefail\nproject='{folder}'\n{FUNCTIONS}\nbuild release bench"
+            at_once = [subprocess.Popen(["bash", "-c", script], stderr=subprocess.PIPE, text=True,
+                                        env={"PATH": f"{folder}:/usr/bin:/bin"}) for _ in range(3)]
+            said = "".join(one.communicate()[1] for one in at_once)
+            self.assertEqual([one.returncode for one in at_once], [0, 0, 0])
+            self.assertEqual((folder / "log").read_text().split(), 3 * ["begin", "end"])
+            self.assertEqual(set(said.splitlines()),
+                             {f"run: another ./run installs or builds in {folder}: waiting for it"})
+
+    def test_memory_bounds_the_compilers(self) -> None:
+        for kibibytes, processors, compilers in ((8 << 20, 4, 4), (3 << 20, 64, 3), (1 << 19, 64, 1)):
+            ran = self.call("compilers", stubs={"awk": f"echo {kibibytes}", "nproc": f"echo {processors}"})
+            self.assertEqual(ran.stdout, f"{compilers}\n", ran.stderr)
+
+    def test_a_link_is_the_checkout_that_it_leads_to(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            link = Path(name, "run")
+            link.symlink_to(RUN)
+            ran = subprocess.run(["bash", "-c", f"source '{link}' help >/dev/null; echo $project"], text=True,
+                                 capture_output=True, check=False)
+            self.assertEqual(ran.stdout, f"{RUN.parent.resolve()}\n", ran.stderr)
 
     def test_what_is_installed_is_said_before(self) -> None:
         stubs = {"dpkg-query": "echo 'installed git'; exit 1", "apt-get": 'echo "apt-get $1"',

@@ -302,8 +302,8 @@ TEST_F(AiryRefinement, ACorrectionThatIsNotANumberIsNoSmallOne) {
     const SaddleSolve broken = [&](SaddleVector& v) {
       (in_x ? v.x : v.lambda_C).setConstant(std::numeric_limits<double>::quiet_NaN());
     };
-    EXPECT_EQ(refined(broken, exact).status, Status::inaccurate);
-    EXPECT_EQ(checked(broken, exact).status, Status::inaccurate);
+    EXPECT_EQ(refined(broken, exact).status, Status::breakdown);
+    EXPECT_EQ(checked(broken, exact).status, Status::breakdown);
   }
 }
 

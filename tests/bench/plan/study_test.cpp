@@ -155,7 +155,7 @@ TEST(Study, AFilesComplaintNamesKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(complaint(R"({"about": "a", "methods": "P2"})"),
             "methods: unknown key, perhaps method (allowed: about, points, method, options, "
             "scenes, once, "
-            "condition, bounds)");
+            "condition, intervals)");
   EXPECT_EQ(complaint("{}"), "about: is missing (allowed: a text)");
   EXPECT_EQ(complaint(R"({"about": "a", "points": "all"})"),
             "points: \"all\" (allowed: accuracy, contact, threads)");
