@@ -95,15 +95,23 @@ TEST(RandomPairs, TheTotalErrorIsNeitherTooSmallNorFarTooLarge) {
   const testing::Campaign wanted = testing::campaign(pairs);
   std::vector<double> above_displacements, above_truth;
   double smallest_angle_deg = 90;
+  int unsolved = 0;
   for (int i = wanted.first; i < wanted.first + wanted.count; ++i) {
     Dice dice(static_cast<std::uint32_t>(7000 + i));
     const Pair pair = random_pair(dice);
-    const SolvedScene best(pair.scene, pair.mesh, hybrid_of_degree(highest + 1));
+    const auto solved = [&](int degree) {
+      SolvedScene one(pair.scene, pair.mesh, hybrid_of_degree(degree), Status::not_converged);
+      unsolved += one.solution.status == Status::ok ? 0 : 1;
+      return one;
+    };
+    const SolvedScene best = solved(highest + 1);
+    if (best.solution.status != Status::ok) continue;
     smallest_angle_deg =
         std::min(smallest_angle_deg, mesh_quality(best.problem().mesh).smallest_angle_deg);
     const double best_error = best.recovered_error().relative, norm = std::sqrt(2 * best.energy());
     for (int k = 1; k <= highest; ++k) {
-      const SolvedScene own(pair.scene, pair.mesh, hybrid_of_degree(k));
+      const SolvedScene own = solved(k);
+      if (own.solution.status != Status::ok) continue;
       const ConstitutiveError error = own.recovered_error();
       const std::string name =
           fmt::format("pair {}, friction {}, degree {}", i, pair.scene.friction, k);
@@ -124,9 +132,10 @@ TEST(RandomPairs, TheTotalErrorIsNeitherTooSmallNorFarTooLarge) {
   const double median = above_displacements[above_displacements.size() / 2];
   std::cout << fmt::format(
       "{} pairs, smallest angle {:.2g} degrees: total error over P2 to P4's {:.3f} at the median, "
-      "{:.2f} at most; over the distance to degree {} {:.2f} to {:.2f}\n",
+      "{:.2f} at most; over the distance to degree {} {:.2f} to {:.2f}; {} not converged\n",
       wanted.count, smallest_angle_deg, median, above_displacements.back(), highest + 1,
-      above_truth.front(), above_truth.back());
+      above_truth.front(), above_truth.back(), unsolved);
+  EXPECT_LE(unsolved, wanted.count / 10);  // which they say
   EXPECT_LT(median, 1.2);
 }
 

@@ -1,6 +1,7 @@
-// The promise: whether bodies that contact alone holds stand, and if not which of them moves how, is
-// what rigid bodies with Coulomb's law do, on any mesh, with any method. Where a mesh is too coarse,
-// or a solver not accurate enough, to decide, that is said. Here on piles of blocks on slopes at random.
+// The promise: whether bodies that contact alone holds stand, and if not which of them moves how,
+// is what rigid bodies with Coulomb's law do, on any mesh, with any method. Where a mesh is too
+// coarse, or a solver not accurate enough, to decide, that is said. Here on piles of blocks on
+// slopes at random.
 //
 // AIRYBENCH_RANDOM_SCENES=FIRST,COUNT in the environment tries others, and more.
 #include <fmt/format.h>
