@@ -135,7 +135,7 @@ TEST(RandomPairs, TheTotalErrorIsNeitherTooSmallNorFarTooLarge) {
       "{:.2f} at most; over the distance to degree {} {:.2f} to {:.2f}; {} not converged\n",
       wanted.count, smallest_angle_deg, median, above_displacements.back(), highest + 1,
       above_truth.front(), above_truth.back(), unsolved);
-  EXPECT_LE(unsolved, wanted.count / 10);  // which they say
+  EXPECT_LE(unsolved, wanted.is_asked_for ? wanted.count / 10 : 0);  // which they say
   EXPECT_LT(median, 1.2);
 }
 
