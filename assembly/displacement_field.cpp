@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/small_cholesky.hpp"
@@ -57,17 +58,14 @@ int displacement_degree(const Problem& problem, const DisplacementField& u) {
       " for quadratic ones on this mesh, more for higher degrees)");
 }
 
-template <int p>
-std::array<int, DisplacementTriangle<p>::nodes> triangle_nodes(const Problem& problem,
-                                                               int triangle) {
-  std::array<int, DisplacementTriangle<p>::nodes> nodes;
+DisplacementTriangle::Nodes triangle_nodes(const Problem& problem, int p, int triangle) {
+  DisplacementTriangle::Nodes nodes(static_cast<std::size_t>(bernstein_count(p)));
   for (int k = 0; k < 3; ++k) {
     nodes[k] = problem.mesh.triangles[triangle][k];
     put_edge_nodes(problem, p, problem.edges.of_triangle[triangle][k], nodes[k],
                    nodes.begin() + 3 + k * (p - 1));
   }
-  for (int i = 0; i < DisplacementTriangle<p>::inner; ++i)
-    nodes[DisplacementTriangle<p>::outer + i] = first_inside(problem, p, triangle) + i;
+  std::iota(nodes.begin() + 3 * p, nodes.end(), first_inside(problem, p, triangle));
   return nodes;
 }
 
@@ -81,12 +79,10 @@ std::array<int, p + 1> boundary_nodes(const Problem& problem, int row) {
   return nodes;
 }
 
-template <int p>
-typename DisplacementTriangle<p>::Displacement of_triangle(const Problem& problem,
-                                                           const DisplacementField& u,
-                                                           int triangle) {
-  const auto nodes = triangle_nodes<p>(problem, triangle);
-  typename DisplacementTriangle<p>::Displacement local;
+DisplacementTriangle::Displacement of_triangle(const Problem& problem, int degree,
+                                               const DisplacementField& u, int triangle) {
+  const auto nodes = triangle_nodes(problem, degree, triangle);
+  DisplacementTriangle::Displacement local(2, nodes.size());
   for (std::size_t m = 0; m < nodes.size(); ++m)
     local.col(static_cast<Eigen::Index>(m)) = u.col(nodes[m]);
   return local;
@@ -107,17 +103,16 @@ std::vector<Eigen::Matrix3d> elasticities(const Problem& problem) {
 
 Eigen::Vector2d displacement_at(const Problem& problem, const DisplacementField& u, int triangle,
                                 const Eigen::Vector3d& lambda) {
-  return with_degree(displacement_degree(problem, u) - 1, [&](auto k) -> Eigen::Vector2d {
-    constexpr int p = k + 1;
-    const auto local = of_triangle<p>(problem, u, triangle);
-    Eigen::Vector2d value = Eigen::Vector2d::Zero();
-    for (int m = 0; m < DisplacementTriangle<p>::nodes; ++m) {
-      const auto& [a, b, c] = DisplacementTriangle<p>::exponents[m];
-      value += binomial(p, a) * binomial(p - a, b) * std::pow(lambda(0), a) *
-               std::pow(lambda(1), b) * std::pow(lambda(2), c) * local.col(m);
-    }
-    return value;
-  });
+  const int p = displacement_degree(problem, u);
+  const auto& of_degree = DisplacementTriangle::of_degree(p);
+  const auto local = of_triangle(problem, p, u, triangle);
+  Eigen::Vector2d value = Eigen::Vector2d::Zero();
+  for (int m = 0; m < of_degree.nodes; ++m) {
+    const auto& [a, b, c] = of_degree.exponents[m];
+    value += binomial(p, a) * binomial(p - a, b) * std::pow(lambda(0), a) * std::pow(lambda(1), b) *
+             std::pow(lambda(2), c) * local.col(m);
+  }
+  return value;
 }
 
 // All Bernstein polynomials have the same mean.
@@ -158,44 +153,38 @@ DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w)
 }
 
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {
-  return with_degree(displacement_degree(problem, u) - 1, [&](auto degree) {
-    using Triangle = DisplacementTriangle<degree + 1>;
-    const auto& constants = Triangle::constants();
-    const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
-    StressField field(problem.mesh.triangles.size(), degree);
-    for (int t = 0; t < static_cast<int>(field.size()); ++t) {
-      const typename Triangle::Strain stress =
-          elasticity[problem.mesh.triangle_body[t]] *
-          Triangle::strain(TriangleShape(problem.vertices_of(t)).gradients,
-                           of_triangle<degree + 1>(problem, u, t));
-      field[t] = stress.lazyProduct(constants.on_thirds);
-    }
-    return field;
-  });
+  const auto& of_degree = DisplacementTriangle::of_degree(displacement_degree(problem, u));
+  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+  StressField field(problem.mesh.triangles.size(), of_degree.degree - 1);
+  for (int t = 0; t < static_cast<int>(field.size()); ++t) {
+    const DisplacementTriangle::Strain stress =
+        elasticity[problem.mesh.triangle_body[t]].lazyProduct(
+            of_degree.strain(TriangleShape(problem.vertices_of(t)).gradients,
+                             of_triangle(problem, of_degree.degree, u, t)));
+    field[t] = stress.lazyProduct(of_degree.on_thirds);
+  }
+  return field;
 }
 
 NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
-  return with_degree(stress.degree(), [&](auto k) {
-    using Triangle = DisplacementTriangle<k + 1>;
-    constexpr int n = Triangle::strains;
-    const auto& constants = Triangle::constants();
-    Eigen::Matrix<double, 3 * n, n> integral;  // ∫ σ B per area, from coefficients by thirds
-    for (int t = 0; t < 3; ++t)
-      integral.template middleRows<n>(n * t) =
-          (constants.mass / 3)
-              .lazyProduct(constants.on_thirds.template middleCols<n>(n * t).transpose());
-    NodalForces forces{Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem, k + 1))};
-    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-      const TriangleShape shape(problem.vertices_of(t));
-      const Eigen::Matrix<double, 3, 3 * n> own = shape.area_mm2 * stress[t];
-      const typename Triangle::Displacement force =
-          Triangle::forces(shape.gradients, own.lazyProduct(integral));
-      forces.largest = std::max(forces.largest, force.cwiseAbs().maxCoeff());
-      const auto nodes = triangle_nodes<k + 1>(problem, t);
-      for (int m = 0; m < Triangle::nodes; ++m) forces.sum.col(nodes[m]) += force.col(m);
-    }
-    return forces;
-  });
+  const int p = stress.degree() + 1;
+  const auto& of_degree = DisplacementTriangle::of_degree(p);
+  const int n = of_degree.strains;
+  Eigen::MatrixXd integral(3 * n, n);  // 3 ∫ σ B per area, from coefficients by thirds
+  for (int t = 0; t < 3; ++t)
+    integral.middleRows(n * t, n) =
+        of_degree.mass.lazyProduct(of_degree.on_thirds.middleCols(n * t, n).transpose());
+  NodalForces forces{Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem, p))};
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    const TriangleShape shape(problem.vertices_of(t));
+    DisplacementTriangle::Strain dual = stress[t].lazyProduct(integral);
+    dual *= shape.area_mm2 / 3;
+    const DisplacementTriangle::Displacement force = of_degree.forces(shape.gradients, dual);
+    forces.largest = std::max(forces.largest, force.cwiseAbs().maxCoeff());
+    const auto nodes = triangle_nodes(problem, p, t);
+    for (int m = 0; m < of_degree.nodes; ++m) forces.sum.col(nodes[m]) += force.col(m);
+  }
+  return forces;
 }
 
 Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {
@@ -206,9 +195,8 @@ Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {
     Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem, p));
     if (loads.has_body_force())
       for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-        for (const int node : triangle_nodes<p>(problem, t))
-          force.col(node) +=
-              problem.area_mm2(t) / DisplacementTriangle<p>::nodes * loads.body_force_N_per_mm3;
+        for (const int node : triangle_nodes(problem, p, t))
+          force.col(node) += problem.area_mm2(t) / bernstein_count(p) * loads.body_force_N_per_mm3;
     if (!loads.traction_MPa) return force;
     for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
       if (mesh.boundary[row].role != BoundaryRole::force) continue;
@@ -290,13 +278,9 @@ double work_on_free_motion(const Problem& problem, const FreeMotions& free) {
                                    [&](const auto& x, int vertex) { return free.at(x, vertex); }));
 }
 
-#define AIRYBENCH_INSTANTIATE(k)                                                                 \
-  template std::array<int, DisplacementTriangle<(k) + 1>::nodes> triangle_nodes<(k) + 1>(        \
-      const Problem&, int);                                                                      \
-  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int);                \
-  template std::array<ContactOffset, (k) + 2> offset_coefficients<(k) + 1>(const Problem&, int); \
-  template DisplacementTriangle<(k) + 1>::Displacement of_triangle<(k) + 1>(                     \
-      const Problem&, const DisplacementField&, int);
+#define AIRYBENCH_INSTANTIATE(k)                                                  \
+  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int); \
+  template std::array<ContactOffset, (k) + 2> offset_coefficients<(k) + 1>(const Problem&, int);
 AIRYBENCH_STRESS_DEGREES(AIRYBENCH_INSTANTIATE)
 #undef AIRYBENCH_INSTANTIATE
 

@@ -28,9 +28,7 @@ int displacement_nodes(const Problem& problem, int degree = 2);
 int displacement_degree(const Problem& problem, const DisplacementField& u);
 
 // Vertices V1 V2 V3, then edges V1V2, V2V3, V3V1 as walked, then inner ones (displacement_place()).
-template <int p = 2>
-std::array<int, DisplacementTriangle<p>::nodes> triangle_nodes(const Problem& problem,
-                                                               int triangle);
+DisplacementTriangle::Nodes triangle_nodes(const Problem& problem, int degree, int triangle);
 // In walking order of Mesh::boundary: start, edge, end.
 template <int p = 2>
 std::array<int, p + 1> boundary_nodes(const Problem& problem, int row);
@@ -44,10 +42,9 @@ EdgeFrame frame_of_coefficient(const Problem& problem, int row, int i) {
   return problem.frame_at(row, i, p);
 }
 
-template <int p>
-typename DisplacementTriangle<p>::Displacement of_triangle(const Problem& problem,
-                                                           const DisplacementField& u,
-                                                           int triangle);
+// The coefficients of a triangle.
+DisplacementTriangle::Displacement of_triangle(const Problem& problem, int degree,
+                                               const DisplacementField& u, int triangle);
 
 // Bernstein coefficients of the quadratic through three samples along an edge.
 template <typename Value>

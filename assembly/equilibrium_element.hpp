@@ -71,12 +71,13 @@ struct ReferenceElement {
 };
 
 // Their entries, as plain data: kernels of several instruction sets share no code for doubles.
+// Those in double are rounded from long double.
 template <typename Scalar>
 struct ReferenceMatrices {
   const Scalar *stress[3], *mass_root, *weighted[3], *flexibility[6], *forces;
 };
-template <typename Scalar, int k>
-const ReferenceMatrices<Scalar>& reference_matrices();  // computed at the first call
+template <typename Scalar>
+const ReferenceMatrices<Scalar>& reference_matrices(int k);  // computed at the first call
 
 template <typename Scalar, int k>
 class EquilibriumElement {
@@ -103,12 +104,10 @@ class EquilibriumElement {
   // f, N, with F = K ū + f for the total stress under a particular one, σ_p: F of σ_p, less Rᵀ
   // times the outer modes' share.
   OnEdges load(const Stress& particular) const;
-  Eigen::Matrix<Scalar, Degree::outer, 1> outer_load(const Stress& particular) const;
+  void subtract_outer_load(const Root& R, const Stress& particular, Scalar* forces) const;
   // The total stress of edges displaced by ū, mm: modes, and σ_p.
   Stress stress(const OnEdges& displacement) const { return of_modes(work_of(displacement)); }
-  Stress stress(const OnEdges& displacement, const Stress& particular) const {
-    return particular + of_modes(work_of(displacement) - modes_load(particular));
-  }
+  Stress stress(const OnEdges& displacement, const Stress& particular) const;
 
   // g = Tᵀ ū − ∫ σ(modes):C:σ is zero for the total stress σ that ū makes, but for rounding. The
   // correction S⁻¹ g of the modes has these forces, N, and the energy gᵀ S⁻¹ g, N mm.
@@ -128,10 +127,10 @@ class EquilibriumElement {
   Scalar independence() const { return flexibility_.independence(); }
 
  private:
-  using Modes = Eigen::Matrix<Scalar, Degree::modes, 1>;
-  using Components = Eigen::Matrix<Scalar, Degree::coefficients, 3>;  // Stress, transposed
+  using Modes = std::array<Scalar, Degree::modes>;
   static const ReferenceMatrices<Constant<Scalar>>& reference() {
-    return reference_matrices<Constant<Scalar>, k>();
+    static const auto& matrices = reference_matrices<Constant<Scalar>>(k);
+    return matrices;
   }
   void factorise_root();
   void factorise_product(const Eigen::Matrix3<Scalar>& compliance_in_tau);
@@ -153,10 +152,8 @@ template <int k, typename Scalar>
 typename EquilibriumElement<Scalar, k>::Stress linear_stress(
     const Eigen::Matrix3<Scalar>& at_vertices);
 
-#define AIRYBENCH_INSTANTIATED(k)                                                   \
-  extern template const ReferenceMatrices<double>& reference_matrices<double, k>(); \
-  extern template const ReferenceMatrices<long double>& reference_matrices<long double, k>();
-AIRYBENCH_STRESS_DEGREES(AIRYBENCH_INSTANTIATED)
-#undef AIRYBENCH_INSTANTIATED
+template <>
+const ReferenceMatrices<double>& reference_matrices(int k);
+extern template const ReferenceMatrices<long double>& reference_matrices(int k);
 
 }  // namespace airybench

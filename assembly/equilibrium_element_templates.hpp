@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
 #include "assembly/equilibrium_element.hpp"
 #include "assembly/hct_templates.hpp"
@@ -12,170 +11,39 @@ namespace equilibrium_formulas {
 
 using hct_formulas::next;
 
-// φ of one mode: the Bernstein coefficients of the three thirds by ring_place().
-template <typename Scalar>
-using AiryModes = std::vector<std::array<std::vector<Scalar>, 3>>;
-
-// Adds the coefficients on the spokes to those in rings.
-template <typename Scalar>
-void complete_spokes(std::array<std::vector<Scalar>, 3>& phi, int d) {
-  for (int c = 0; c < d; ++c)
-    for (int i = 0; i < 3; ++i) {
-      const int before = next(next(i)), a = d - 1 - c;
-      const Scalar mean = (phi[i][ring_place(d, 0, c)] + phi[i][ring_place(d, 1, c)] +
-                           phi[before][ring_place(d, a, c)]) /
-                          Scalar(3);
-      phi[i][ring_place(d, 0, c + 1)] = mean;
-      phi[before][ring_place(d, a, c + 1)] = mean;
-    }
-}
-
-template <typename Scalar>
-AiryModes<Scalar> airy_modes(int d) {
-  AiryModes<Scalar> modes;
-  const auto add_ring = [&](int c) {
-    for (int t = 0; t < 3; ++t)
-      for (int b = 1; b < d - c; ++b) {
-        auto& phi = modes.emplace_back();
-        phi.fill(std::vector<Scalar>(bernstein_count(d), Scalar(0)));
-        phi[t][ring_place(d, b, c)] = 1;
-        complete_spokes(phi, d);
-      }
-  };
-  for (int c = 2; c < d; ++c) add_ring(c);
-  add_ring(1);
-  add_ring(0);
-  return modes;
-}
-
-// W with S = WᵀW.
-template <typename Scalar>
-Eigen::MatrixX<Scalar> cholesky_root(const Eigen::MatrixX<Scalar>& S) {
-  using std::sqrt;
-  Eigen::MatrixX<Scalar> W = Eigen::MatrixX<Scalar>::Zero(S.rows(), S.cols());
-  for (int j = 0; j < S.cols(); ++j)
-    for (int i = 0; i <= j; ++i) {
-      Scalar sum = S(i, j);
-      for (int m = 0; m < i; ++m) sum -= W(m, i) * W(m, j);
-      W(i, j) = i < j ? Scalar(sum / W(i, i)) : Scalar(sqrt(sum));
-    }
-  return W;
-}
-
-template <typename Scalar>
-hct_formulas::Corners<Scalar> reference_triangle() {
-  hct_formulas::Corners<Scalar> v;
-  v << 0, 1, 0, 0, 0, 1;
-  return v;
-}
-
-// n L of edge t.
-template <typename Scalar>
-Eigen::Vector2<Scalar> long_normal(const hct_formulas::Corners<Scalar>& v, int t) {
-  const Eigen::Vector2<Scalar> edge = v.col(next(t)) - v.col(t);
-  return {edge.y(), -edge.x()};
-}
-
-template <typename Scalar>
-Eigen::Vector2<Scalar> traction_of(const Eigen::Vector3<Scalar>& stress,
-                                   const Eigen::Vector2<Scalar>& normal) {
-  return {stress(0) * normal.x() + stress(2) * normal.y(),
-          stress(2) * normal.x() + stress(1) * normal.y()};
-}
-
 // (xx, yy, xy) of B τ Bᵀ / det B.
 template <typename Scalar>
 Eigen::Matrix3<Scalar> stress_map(const Eigen::Matrix2<Scalar>& B, const Scalar& determinant) {
   const Scalar a = B(0, 0), b = B(0, 1), c = B(1, 0), d = B(1, 1), two = 2;
+  const Scalar entries[3][3] = {
+      {a * a, b * b, two * a * b}, {c * c, d * d, two * c * d}, {a * c, b * d, a * d + b * c}};
   Eigen::Matrix3<Scalar> map;
-  map << a * a, b * b, two * a * b, c * c, d * d, two * c * d, a * c, b * d, a * d + b * c;
-  return map / determinant;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) map(i, j) = entries[i][j] / determinant;
+  return map;
 }
 
-// Components of the six flexibility matrices.
-constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+// W times the n coefficients of each third, as columns xx, yy, xy: their scalar products are
+// integrals.
+template <typename Scalar>
+void to_orthonormal(const Constant<Scalar>* W, int n, const Scalar* stress, Scalar* result) {
+  for (int t = 0; t < 3; ++t, stress += 3 * n)
+    for (int i = 0; i < n; ++i, result += 3) {
+      for (int a = 0; a < 3; ++a) result[a] = 0;
+      for (int j = i; j < n; ++j)
+        for (int a = 0; a < 3; ++a) result[a] += W[n * j + i] * stress[3 * j + a];
+    }
+}
 
 }  // namespace equilibrium_formulas
-
-template <typename Scalar>
-ReferenceElement<Scalar>::ReferenceElement(int k) {
-  using namespace equilibrium_formulas;
-  const int d = k + 2, third = bernstein_count(k);
-  const hct_formulas::Corners<Scalar> v = reference_triangle<Scalar>();
-  const Eigen::Vector2<Scalar> centroid = hct_formulas::mean(v);
-  const AiryModes<Scalar> airy = airy_modes<Scalar>(d);
-  const int modes = static_cast<int>(airy.size()), outer = 6 * k + 3;
-  for (Matrix& component : stress) component.resize(3 * third, modes);
-  for (int t = 0; t < 3; ++t) {
-    const hct_formulas::Corners<Scalar> g =
-        hct_formulas::barycentric_gradients<Scalar>(v.col(t), v.col(next(t)), centroid);
-    for (int mode = 0; mode < modes; ++mode)
-      for (int c = 0; c <= k; ++c)
-        for (int b = 0; b <= k - c; ++b) {
-          Eigen::Matrix2<Scalar> second = Eigen::Matrix2<Scalar>::Zero();  // ∇∇φ
-          for (int p = 0; p < 3; ++p)
-            for (int q = 0; q < 3; ++q) {
-              const int place = ring_place(d, b + (p == 1) + (q == 1), c + (p == 2) + (q == 2));
-              second += Scalar(d * (d - 1)) * airy[mode][t][place] *
-                        g.col(p).lazyProduct(g.col(q).transpose());
-            }
-          const int row = third * t + ring_place(k, b, c);
-          stress[0](row, mode) = second(1, 1);
-          stress[1](row, mode) = second(0, 0);
-          stress[2](row, mode) = -second(0, 1);
-        }
-  }
-
-  mass_root = cholesky_root<Scalar>(bernstein_mass(k, Scalar(1) / Scalar(6)));
-  for (int component = 0; component < 3; ++component) {
-    weighted[component].resize(3 * third, modes);
-    for (int t = 0; t < 3; ++t)
-      weighted[component].middleRows(third * t, third) =
-          mass_root.lazyProduct(stress[component].middleRows(third * t, third));
-  }
-  for (int m = 0; m < 6; ++m) {
-    const auto [a, b] = pairs[m];
-    const Matrix product = weighted[a].transpose().lazyProduct(weighted[b]);
-    flexibility[m] = a == b ? product : Matrix(product + product.transpose());
-  }
-
-  forces.resize(outer, 6 * (k + 1));
-  for (int t = 0; t < 3; ++t) {
-    const Eigen::Vector2<Scalar> normal = long_normal(v, t) / Scalar(k + 1);
-    for (int j = 0; j <= k; ++j) {
-      const int row = third * t + j, column = 2 * ((k + 1) * t + j);
-      for (int mode = 0; mode < outer; ++mode) {
-        const int of_mode = modes - outer + mode;
-        const Eigen::Vector3<Scalar> tau(stress[0](row, of_mode), stress[1](row, of_mode),
-                                         stress[2](row, of_mode));
-        forces.row(mode).template segment<2>(column) = traction_of(tau, normal).transpose();
-      }
-    }
-  }
-}
-
-template <typename Scalar, int k>
-const ReferenceMatrices<Scalar>& reference_matrices() {
-  static const ReferenceElement<Scalar> element(k);
-  static const ReferenceMatrices<Scalar> matrices = [] {
-    ReferenceMatrices<Scalar> data;
-    for (int c = 0; c < 3; ++c) data.stress[c] = element.stress[c].data();
-    data.mass_root = element.mass_root.data();
-    for (int c = 0; c < 3; ++c) data.weighted[c] = element.weighted[c].data();
-    for (int m = 0; m < 6; ++m) data.flexibility[m] = element.flexibility[m].data();
-    data.forces = element.forces.data();
-    return data;
-  }();
-  return matrices;
-}
 
 template <typename Scalar, int k>
 EquilibriumElement<Scalar, k>::EquilibriumElement(const TriangleVerticesFor<Scalar>& vertices,
                                                   const Eigen::Matrix3<Data<Scalar>>& compliance,
                                                   Factor factor)
     : compliance_(compliance.template cast<Scalar>()) {
-  const hct_formulas::Corners<Scalar> v = hct_formulas::at_origin<Scalar>(vertices);
-  B_ << v.col(1), v.col(2);
+  for (int x = 0; x < 2; ++x)
+    for (int i = 0; i < 2; ++i) B_(x, i) = Scalar(vertices(x, i + 1)) - Scalar(vertices(x, 0));
   determinant_ = B_(0, 0) * B_(1, 1) - B_(0, 1) * B_(1, 0);
   to_stress_ = equilibrium_formulas::stress_map(B_, determinant_);
   const Eigen::Matrix3<Scalar> strain = compliance_.lazyProduct(to_stress_) * determinant_;
@@ -195,11 +63,13 @@ EquilibriumElement<Scalar, k>::EquilibriumElement(const TriangleVerticesFor<Scal
 template <typename Scalar, int k>
 void EquilibriumElement<Scalar, k>::factorise_by_condition(const Eigen::Matrix3<Scalar>& c) {
   const SmallCholesky<Scalar, 3> of_compliance(compliance_);
-  const Scalar pivots = of_compliance.L().diagonal().prod();
+  const auto& L = of_compliance.L();
+  const Scalar pivots = L(0, 0) * L(1, 1) * L(2, 2);
   const Scalar determinant = pivots * pivots * determinant_ * determinant_ * determinant_;
   const Scalar minors = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1) + c(0, 0) * c(2, 2) -
                         c(0, 2) * c(0, 2) + c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
-  const auto well_conditioned = c.trace() * minors < Scalar(5000) * determinant;
+  const Scalar trace = c(0, 0) + c(1, 1) + c(2, 2);
+  const auto well_conditioned = trace * minors < Scalar(5000) * determinant;
   if (!any(well_conditioned)) return factorise_root();
   factorise_product(c);
   if (all(well_conditioned)) return;
@@ -252,7 +122,7 @@ typename EquilibriumElement<Scalar, k>::Root EquilibriumElement<Scalar, k>::root
   for (int i = 0; i < Degree::outer; ++i) {
     const auto factor = [&](int j) { return -flexibility_.L()(first + i, first + j); };
     add_multiples(&R(i, 0), Degree::size, i, factor, &R(0, 0), Degree::size);
-    R.row(i) *= flexibility_.reciprocal()(first + i);
+    for (int j = 0; j < Degree::size; ++j) R(i, j) *= flexibility_.reciprocal()(first + i);
   }
   return R;
 }
@@ -279,130 +149,157 @@ typename EquilibriumElement<Scalar, k>::Stiffness EquilibriumElement<Scalar, k>:
   return K;
 }
 
-namespace equilibrium_formulas {
-
-// W times the coefficients of each third and component: their scalar products are integrals.
-template <typename Scalar, int coefficients>
-Eigen::Matrix<Scalar, 3, coefficients> in_orthonormal(
-    const Constant<Scalar>* W, const Eigen::Matrix<Scalar, 3, coefficients>& stress) {
-  constexpr int n = coefficients / 3;
-  Eigen::Matrix<Scalar, 3, coefficients> result = Eigen::Matrix<Scalar, 3, coefficients>::Zero();
-  for (int t = 0; t < 3; ++t)
-    for (int i = 0; i < n; ++i)
-      for (int j = i; j < n; ++j)
-        result.col(n * t + i) += Scalar(W[n * j + i]) * stress.col(n * t + j);
-  return result;
-}
-
-}  // namespace equilibrium_formulas
-
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::modes_load(
     const Stress& particular) const {
-  const Eigen::Matrix3<Scalar> dual = to_stress_.transpose().lazyProduct(compliance_);
-  const Components strain = determinant_ * dual.lazyProduct(equilibrium_formulas::in_orthonormal(
-                                                                reference().mass_root, particular))
-                                               .transpose();
-  Modes load = Modes::Zero();
-  for (int component = 0; component < 3; ++component)
-    for (int mode = 0; mode < Degree::modes; ++mode)
-      load(mode) += in_four_sums(reference().weighted[component] + Degree::coefficients * mode,
-                                 &strain(0, component), 0, Degree::coefficients);
+  constexpr int n = Degree::coefficients;
+  const Eigen::Matrix3<Scalar> dual =
+      (to_stress_.transpose() * determinant_).lazyProduct(compliance_);
+  Scalar orthonormal[3 * n], columns[3 * n], strain[3][n];
+  equilibrium_formulas::to_orthonormal(reference().mass_root, Degree::third, particular.data(),
+                                       orthonormal);
+  transform_columns(dual, orthonormal, n, columns);
+  for (int i = 0; i < n; ++i)
+    for (int a = 0; a < 3; ++a) strain[a][i] = columns[3 * i + a];
+  Modes load;
+  for (int mode = 0; mode < Degree::modes; ++mode) {
+    load[mode] = 0;
+    for (int a = 0; a < 3; ++a)
+      load[mode] += in_four_sums(reference().weighted[a] + n * mode, strain[a], 0, n);
+  }
   return load;
 }
 
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::OnEdges EquilibriumElement<Scalar, k>::load(
     const Stress& particular) const {
-  return edge_forces(particular) - root().transpose().lazyProduct(outer_load(particular));
+  OnEdges f = edge_forces(particular);
+  subtract_outer_load(root(), particular, f.data());
+  return f;
 }
 
 template <typename Scalar, int k>
-Eigen::Matrix<Scalar, StressDegree<k>::outer, 1> EquilibriumElement<Scalar, k>::outer_load(
-    const Stress& particular) const {
+void EquilibriumElement<Scalar, k>::subtract_outer_load(const Root& R, const Stress& particular,
+                                                        Scalar* forces) const {
   Modes y = modes_load(particular);
-  flexibility_.solve_lower(y);
-  return y.template tail<Degree::outer>();
+  flexibility_.solve_lower(y.data());
+  add_multiples(
+      forces, Degree::size, Degree::outer, [&](int m) { return -y[Degree::inner + m]; }, &R(0, 0),
+      Degree::size);
 }
 
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::work_of(
     const OnEdges& displacement) const {
-  OnEdges u;  // in x̂
+  const Scalar* u = displacement.data();
+  Scalar in_reference[Degree::size];
   for (int j = 0; j < Degree::size; j += 2)
-    u.template segment<2>(j) = B_.transpose().lazyProduct(displacement.template segment<2>(j));
-  Modes work = Modes::Zero();
+    for (int i = 0; i < 2; ++i) in_reference[j + i] = B_(0, i) * u[j] + B_(1, i) * u[j + 1];
+  Modes work;
+  for (Scalar& of_mode : work) of_mode = 0;
   add_multiples(
-      &work(Degree::inner), Degree::outer, Degree::size, [&](int j) { return u(j); },
+      &work[Degree::inner], Degree::outer, Degree::size, [&](int j) { return in_reference[j]; },
       reference().forces, Degree::outer);
   return work;
 }
 
 template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::stress(
+    const OnEdges& displacement, const Stress& particular) const {
+  Modes work = work_of(displacement);
+  const Modes known = modes_load(particular);
+  for (int m = 0; m < Degree::modes; ++m) work[m] -= known[m];
+  Stress total = of_modes(work);
+  for (int i = 0; i < 3 * Degree::coefficients; ++i) total.data()[i] += particular.data()[i];
+  return total;
+}
+
+template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Defect EquilibriumElement<Scalar, k>::defect(
     const OnEdges& displacement, const Stress& total) const {
-  const Modes g = work_of(displacement) - modes_load(total);
+  Modes g = work_of(displacement);
+  const Modes made = modes_load(total);
+  for (int m = 0; m < Degree::modes; ++m) g[m] -= made[m];
   Modes correction = g;
-  flexibility_.solve(correction);
-  Defect result{OnEdges::Zero(), g.dot(correction)};
-  const auto force = [&](int j) {
-    return in_four_sums(reference().forces + Degree::outer * j, &correction(Degree::inner), 0,
-                        Degree::outer);
-  };
+  flexibility_.solve(correction.data());
+  Defect result;
+  result.energy = in_four_sums(g.data(), correction.data(), 0, Degree::modes);
+  Scalar force[Degree::size];  // in x̂
+  for (int j = 0; j < Degree::size; ++j)
+    force[j] = in_four_sums(reference().forces + Degree::outer * j, &correction[Degree::inner], 0,
+                            Degree::outer);
   for (int j = 0; j < Degree::size; j += 2)
-    result.forces.template segment<2>(j) =
-        B_.lazyProduct(Eigen::Vector2<Scalar>(force(j), force(j + 1)));
+    for (int x = 0; x < 2; ++x)
+      result.forces(j + x) = B_(x, 0) * force[j] + B_(x, 1) * force[j + 1];
   return result;
 }
 
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::of_modes(
     Modes work) const {
-  flexibility_.solve(work);
-  Components tau = Components::Zero();
-  for (int component = 0; component < 3; ++component)
+  constexpr int n = Degree::coefficients;
+  flexibility_.solve(work.data());
+  Scalar tau[3][n], columns[3 * n];
+  for (int a = 0; a < 3; ++a) {
+    for (Scalar& coefficient : tau[a]) coefficient = 0;
     add_multiples(
-        &tau(0, component), Degree::coefficients, Degree::modes, [&](int m) { return work(m); },
-        reference().stress[component], Degree::coefficients);
-  return to_stress_.lazyProduct(tau.transpose());
+        tau[a], n, Degree::modes, [&](int m) { return work[m]; }, reference().stress[a], n);
+    for (int i = 0; i < n; ++i) columns[3 * i + a] = tau[a][i];
+  }
+  Stress stress;
+  transform_columns(to_stress_, columns, n, stress.data());
+  return stress;
 }
 
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::OnEdges EquilibriumElement<Scalar, k>::edge_forces(
     const Stress& stress) const {
-  using namespace equilibrium_formulas;
-  hct_formulas::Corners<Scalar> v;
-  v << Eigen::Vector2<Scalar>::Zero(), B_;
+  Scalar edge[3][2];
+  for (int x = 0; x < 2; ++x) {
+    edge[0][x] = B_(x, 0);
+    edge[1][x] = B_(x, 1) - B_(x, 0);
+    edge[2][x] = -B_(x, 1);
+  }
   OnEdges forces;
+  Scalar* force = forces.data();
   for (int t = 0; t < 3; ++t) {
-    const Eigen::Vector2<Scalar> normal = long_normal(v, t) / Scalar(k + 1);
-    for (int j = 0; j <= k; ++j)
-      forces.template segment<2>(2 * ((k + 1) * t + j)) =
-          traction_of<Scalar>(stress.col(Degree::third * t + j), normal);
+    const Scalar n_x = edge[t][1] / Scalar(k + 1), n_y = -edge[t][0] / Scalar(k + 1);
+    for (int j = 0; j <= k; ++j, force += 2) {
+      const Scalar* s = &stress(0, Degree::third * t + j);
+      force[0] = s[0] * n_x + s[2] * n_y;
+      force[1] = s[2] * n_x + s[1] * n_y;
+    }
   }
   return forces;
 }
 
 template <typename Scalar, int k>
 Scalar EquilibriumElement<Scalar, k>::energy(const Stress& sigma, const Stress& tau) const {
-  using equilibrium_formulas::in_orthonormal;
-  const Stress strain = compliance_.lazyProduct(in_orthonormal(reference().mass_root, sigma));
-  return determinant_ * strain.cwiseProduct(in_orthonormal(reference().mass_root, tau)).sum();
+  constexpr int n = 3 * Degree::coefficients;
+  Scalar first[n], second[n], strain[n];
+  equilibrium_formulas::to_orthonormal(reference().mass_root, Degree::third, sigma.data(), first);
+  equilibrium_formulas::to_orthonormal(reference().mass_root, Degree::third, tau.data(), second);
+  transform_columns(compliance_, first, Degree::coefficients, strain);
+  return determinant_ * in_four_sums(strain, second, 0, n);
 }
 
 template <int k, typename Scalar>
 typename EquilibriumElement<Scalar, k>::Stress linear_stress(
     const Eigen::Matrix3<Scalar>& at_vertices) {
   // A linear function's Bernstein coefficients are its values at the domain points.
-  const Eigen::Vector3<Scalar> at_centroid = at_vertices.rowwise().sum() / Scalar(3);
   typename EquilibriumElement<Scalar, k>::Stress stress;
-  for (int t = 0; t < 3; ++t)
-    for (int c = 0; c <= k; ++c)
-      for (int b = 0; b <= k - c; ++b)
-        stress.col(StressDegree<k>::third * t + ring_place(k, b, c)) =
-            (Scalar(k - b - c) * at_vertices.col(t) +
-             Scalar(b) * at_vertices.col(equilibrium_formulas::next(t)) + Scalar(c) * at_centroid) /
-            Scalar(k);
+  for (int a = 0; a < 3; ++a) {
+    const Scalar at_centroid =
+        (at_vertices(a, 0) + at_vertices(a, 1) + at_vertices(a, 2)) / Scalar(3);
+    for (int t = 0; t < 3; ++t)
+      for (int c = 0; c <= k; ++c)
+        for (int b = 0; b <= k - c; ++b)
+          stress(a, StressDegree<k>::third * t + ring_place(k, b, c)) =
+              (Scalar(k - b - c) * at_vertices(a, t) +
+               Scalar(b) * at_vertices(a, equilibrium_formulas::next(t)) +
+               Scalar(c) * at_centroid) /
+              Scalar(k);
+  }
   return stress;
 }
 

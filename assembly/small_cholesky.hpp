@@ -1,5 +1,6 @@
-// Cholesky factorisation S = L Lᵀ of a small matrix. Eigen's, made for large ones too, costs
-// seconds of compile time per scalar.
+// Cholesky factorisation S = L Lᵀ of a small matrix, and the loops that elements are made of. They
+// run over plain arrays: every expression of Eigen costs a compiler 30 ms per size and scalar, and
+// elements have dozens of both.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,12 +41,22 @@ void add_multiples(Scalar* __restrict y, int n, int count, Factor a, const Numbe
   }
 }
 
+// C = A B of `count` columns of three.
+template <typename Scalar>
+void transform_columns(const Eigen::Matrix3<Scalar>& A, const Scalar* B, int count, Scalar* C) {
+  for (int j = 0; j < count; ++j, B += 3, C += 3)
+    for (int i = 0; i < 3; ++i) C[i] = A(i, 0) * B[0] + A(i, 1) * B[1] + A(i, 2) * B[2];
+}
+
 template <typename Scalar, int n>
 class SmallCholesky {
  public:
-  SmallCholesky() = default;
+  SmallCholesky() {
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) L_(i, j) = 0;
+  }
   // S: symmetric; its lower triangle is read.
-  explicit SmallCholesky(const Eigen::Matrix<Scalar, n, n>& S) {
+  explicit SmallCholesky(const Eigen::Matrix<Scalar, n, n>& S) : SmallCholesky() {
     using std::min;
     using std::sqrt;
     for (int c = 0; c < n; ++c) {  // down columns, which lie in one piece
@@ -65,16 +76,18 @@ class SmallCholesky {
     using std::min;
     using std::sqrt;
     SmallCholesky result;
-    Eigen::Matrix<Scalar, n, 1> length;
-    for (int j = 0; j < n; ++j) length(j) = sqrt(dot(M, j, j));
+    Scalar length[n];
+    for (int j = 0; j < n; ++j) length[j] = sqrt(dot(M, j, j));
     for (int j = 0; j < n; ++j) {
       result.L_(j, j) = sqrt(dot(M, j, j));
-      result.reciprocal_(j) = 1 / result.L_(j, j);
-      result.independence_ = min(Scalar(result.L_(j, j) / length(j)), result.independence_);
-      M.col(j) *= result.reciprocal_(j);
+      const Scalar reciprocal = 1 / result.L_(j, j);
+      result.reciprocal_(j) = reciprocal;
+      result.independence_ = min(Scalar(result.L_(j, j) / length[j]), result.independence_);
+      for (int m = 0; m < rows; ++m) M(m, j) *= reciprocal;
       for (int i = j + 1; i < n; ++i) {
-        result.L_(i, j) = dot(M, j, i);
-        M.col(i) -= result.L_(i, j) * M.col(j);
+        const Scalar along = dot(M, j, i);
+        result.L_(i, j) = along;
+        for (int m = 0; m < rows; ++m) M(m, i) -= along * M(m, j);
       }
     }
     return result;
@@ -91,35 +104,40 @@ class SmallCholesky {
   // a where it is true, else b: of packs (solvers/base/pack.hpp), lane by lane.
   template <typename Truth>
   static SmallCholesky chosen(const Truth& truth, const SmallCholesky& a, const SmallCholesky& b) {
-    const auto choose = [&](const Scalar& x, const Scalar& y) { return select(truth, x, y); };
     SmallCholesky result;
-    result.L_ = a.L_.binaryExpr(b.L_, choose);
-    result.reciprocal_ = a.reciprocal_.binaryExpr(b.reciprocal_, choose);
-    result.independence_ = choose(a.independence_, b.independence_);
+    for (int j = 0; j < n; ++j) {
+      for (int i = j; i < n; ++i) result.L_(i, j) = select(truth, a.L_(i, j), b.L_(i, j));
+      result.reciprocal_(j) = select(truth, a.reciprocal_(j), b.reciprocal_(j));
+    }
+    result.independence_ = select(truth, a.independence_, b.independence_);
     return result;
   }
 
-  // X ← S⁻¹ X, L⁻¹ X, L⁻ᵀ X.
+  // x ← S⁻¹ x, L⁻¹ x, L⁻ᵀ x.
+  void solve(Scalar* x) const {
+    solve_lower(x);
+    solve_upper(x);
+  }
+  void solve_lower(Scalar* x) const {
+    for (int i = 0; i < n; ++i) {
+      x[i] *= reciprocal_(i);
+      for (int k = i + 1; k < n; ++k) x[k] -= L_(k, i) * x[i];
+    }
+  }
+  void solve_upper(Scalar* x) const {
+    for (int i = n - 1; i >= 0; --i) {
+      x[i] -= in_four_sums(&L_(0, i), x, i + 1, n);
+      x[i] *= reciprocal_(i);
+    }
+  }
+  // The same of columns.
   template <int columns>
   void solve(Eigen::Matrix<Scalar, n, columns>& X) const {
-    solve_lower(X);
-    solve_upper(X);
+    for (int c = 0; c < columns; ++c) solve(&X(0, c));
   }
   template <int columns>
   void solve_lower(Eigen::Matrix<Scalar, n, columns>& X) const {
-    for (int c = 0; c < columns; ++c)
-      for (int i = 0; i < n; ++i) {
-        X(i, c) *= reciprocal_(i);
-        for (int k = i + 1; k < n; ++k) X(k, c) -= L_(k, i) * X(i, c);
-      }
-  }
-  template <int columns>
-  void solve_upper(Eigen::Matrix<Scalar, n, columns>& X) const {
-    for (int c = 0; c < columns; ++c)
-      for (int i = n - 1; i >= 0; --i) {
-        X(i, c) -= in_four_sums(&L_(0, i), &X(0, c), i + 1, n);
-        X(i, c) *= reciprocal_(i);
-      }
+    for (int c = 0; c < columns; ++c) solve_lower(&X(0, c));
   }
 
  private:
@@ -128,7 +146,7 @@ class SmallCholesky {
     return in_four_sums(&M(0, a), &M(0, b), 0, rows);
   }
 
-  Eigen::Matrix<Scalar, n, n> L_ = Eigen::Matrix<Scalar, n, n>::Zero();
+  Eigen::Matrix<Scalar, n, n> L_;
   Eigen::Matrix<Scalar, n, 1> reciprocal_;
   Scalar independence_ = 1;
 };

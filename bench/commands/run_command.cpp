@@ -19,6 +19,7 @@
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
 #include "bench/records/record_files.hpp"
+#include "bench/records/summary.hpp"
 #include "bench/report/prediction.hpp"
 #include "bench/report/results_table.hpp"
 #include "bench/run/adapted_scenes.hpp"

@@ -151,46 +151,51 @@ void note_bounds(const DualSystem& system, const Fields& fields, double highest_
 }
 
 // ½ ∫ σ:C:σ over a triangle, of coefficients by thirds or of the whole.
-template <int k, int columns>
-double strain_energy(const Eigen::Matrix<double, 3, columns>& stress, double area_mm2,
-                     const Eigen::Matrix3d& compliance,
-                     const typename DisplacementTriangle<k + 1>::Constants& constants) {
-  constexpr int n = DisplacementTriangle<k + 1>::strains, parts = columns / n;
+double strain_energy(const Eigen::Ref<const Eigen::Matrix3Xd>& stress, double area_mm2,
+                     const Eigen::Matrix3d& compliance, const Eigen::MatrixXd& mass) {
+  const Eigen::Index n = mass.rows(), parts = stress.cols() / n;
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-  for (int part = 0; part < parts; ++part) {
-    const Eigen::Matrix<double, 3, n> of_part = stress.template middleCols<n>(n * part);
-    products += of_part.lazyProduct(constants.mass.lazyProduct(of_part.transpose()).eval());
+  for (Eigen::Index part = 0; part < parts; ++part) {
+    const DisplacementTriangle::Strain of_part = stress.middleCols(n * part, n);
+    products += of_part.lazyProduct(mass).eval().lazyProduct(of_part.transpose());
   }
-  return area_mm2 / (2 * parts) * products.cwiseProduct(compliance).sum();
+  return area_mm2 / (2 * static_cast<double>(parts)) * products.cwiseProduct(compliance).sum();
+}
+
+// Adds the energies of the body: ½ ∫ of σ, of Aε(u), and twice that of their difference.
+void add_body(const Problem& problem, Fields& fields, ConstitutiveError& error) {
+  const auto& [stress, F_C, u, energy, energy_of_u] = fields;
+  const auto& of_degree = DisplacementTriangle::of_degree(stress.degree() + 1);
+  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+  error.of_triangle_Nmm.resize(stress.size());
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    const TriangleShape shape(problem.vertices_of(t));
+    const DisplacementTriangle::Strain other =
+        elasticity[problem.mesh.triangle_body[t]].lazyProduct(
+            of_degree.strain(shape.gradients, of_triangle(problem, of_degree.degree, u, t)));
+    const DisplacementTriangle::StrainByThirds own = stress[t],
+                                               difference =
+                                                   own - other.lazyProduct(of_degree.on_thirds);
+    const auto energy_of = [&](const auto& s) {
+      return strain_energy(s, shape.area_mm2, problem.compliance_of(t), of_degree.mass);
+    };
+    error.of_triangle_Nmm[t] = 2 * energy_of(difference);
+    fields.energy += energy_of(own);
+    fields.energy_of_u += energy_of(other);
+    error.body_Nmm += error.of_triangle_Nmm[t];
+  }
 }
 
 template <int k>
 ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
                            const Eigen::VectorXd& F_C, const DisplacementField& u) {
-  using Triangle = DisplacementTriangle<k + 1>;
   const Problem& problem = *system.problem;
-  const auto& constants = Triangle::constants();
-  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   ConstitutiveError error;
   Fields fields{stress, F_C, u, 0, 0};
-  error.of_triangle_Nmm.resize(stress.size());
+  add_body(problem, fields, error);
   std::vector<int> triangle_of_edge(static_cast<std::size_t>(problem.edges.count()));
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const TriangleShape shape(problem.vertices_of(t));
-    const typename Triangle::Strain other = elasticity[problem.mesh.triangle_body[t]].lazyProduct(
-        Triangle::strain(shape.gradients, of_triangle<k + 1>(problem, u, t)));
-    using ByThirds = Eigen::Matrix<double, 3, 3 * Triangle::strains>;
-    const ByThirds own = stress[t];
-    const ByThirds difference = own - other.lazyProduct(constants.on_thirds);
-    const auto energy = [&](const auto& s) {
-      return strain_energy<k>(s, shape.area_mm2, problem.compliance_of(t), constants);
-    };
-    error.of_triangle_Nmm[t] = 2 * energy(difference);
-    fields.energy += energy(own);
-    fields.energy_of_u += energy(other);
-    error.body_Nmm += error.of_triangle_Nmm[t];
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
     for (const int edge : problem.edges.of_triangle[t]) triangle_of_edge[edge] = t;
-  }
   double highest_gap = 0, highest_force = 0;
   const Eigen::VectorXd compliance = rough_compliance(problem, system.contact);
   for (int point = 0; point < system.contact.count; point += k + 1) {

@@ -5,31 +5,21 @@
 #include <numeric>
 #include <vector>
 
-#include "assembly/small_cholesky.hpp"
 #include "bench/verify/displacement_constraints.hpp"
 #include "bench/verify/own_displacement.hpp"
+#include "bench/verify/positive_definite.hpp"
 #include "bench/verify/vertex_stars.hpp"
 #include "bench/verify/zone_recovery.hpp"
 
 namespace airybench {
 namespace {
 
-template <int k>
-using Triangle = DisplacementTriangle<k + 1>;
-template <int k>
-using LocalCoefficients = typename Triangle<k>::Displacement;
+using Triangle = DisplacementTriangle;
 
 // Adds to w the rigid motion that fits its edge moments to the given ones (least squares).
-template <int k>
-void set_rigid_motion(const Problem& problem, int triangle, const Eigen::MatrixXd& edge_moments,
-                      LocalCoefficients<k>& w) {
-  constexpr int p = k + 1;
-  constexpr auto weight = [] {
-    std::array<std::array<double, p + 1>, p> moment{};
-    for (int j = 0; j < p; ++j)
-      for (int i = 0; i <= p; ++i) moment[j][i] = edge_moment(k, j, p, i);
-    return moment;
-  }();
+void set_rigid_motion(const Problem& problem, const Triangle& of_degree, int triangle,
+                      const Eigen::MatrixXd& edge_moments, Triangle::Displacement& w) {
+  const int p = of_degree.degree, k = p - 1;
   const TriangleVertices v = problem.vertices_of(triangle);
   const Eigen::Matrix<double, 2, 3> corner = v.colwise() - v.rowwise().mean();
   const auto& corners = problem.mesh.triangles[triangle];
@@ -41,7 +31,8 @@ void set_rigid_motion(const Problem& problem, int triangle, const Eigen::MatrixX
     const auto given = edge_moments.col(problem.edges.of_triangle[triangle][e]);
     for (int j = 0; j <= k; ++j) {
       Eigen::Vector2d missing = given.segment<2>(2 * (from_low ? j : k - j));
-      for (int i = 0; i <= p; ++i) missing -= weight[j][i] * w.col(Triangle<k>::on_edge(e, i));
+      for (int i = 0; i <= p; ++i)
+        missing -= edge_moment(k, j, p, i) * w.col(of_degree.on_edge(e, i));
       const Eigen::Vector2d arm =
           ((k + 1 - j) * corner.col(e) + (j + 1) * corner.col(next)) / (k + 2);
       translation += missing / (3 * (k + 1));
@@ -50,73 +41,72 @@ void set_rigid_motion(const Problem& problem, int triangle, const Eigen::MatrixX
     }
   }
   const double rotation = turned / spread;
-  for (int m = 0; m < Triangle<k>::nodes; ++m) {
-    const auto& [a, b, c] = Triangle<k>::exponents[m];
+  for (int m = 0; m < of_degree.nodes; ++m) {
+    const auto& [a, b, c] = of_degree.exponents[m];
     const Eigen::Vector2d x = (a * corner.col(0) + b * corner.col(1) + c * corner.col(2)) / p;
     w.col(m) += translation + rotation * Eigen::Vector2d(-x.y(), x.x());
   }
 }
 
 // Diagonal of the triangle's stiffness per node, the mean of x and y.
-template <int k>
-Eigen::Matrix<double, Triangle<k>::nodes, 1> stiffnesses(const TriangleShape& shape,
-                                                         const Eigen::Matrix3d& c) {
-  static const auto diagonals = [] {
-    Eigen::Matrix<double, Triangle<k>::nodes, 3> of_products;
-    for (int i = 0; i < 3; ++i)
-      of_products.col(i) = Triangle<k>::constants().stiffness[i].diagonal();
-    return of_products;
-  }();
+std::array<double, Triangle::most_nodes> stiffnesses(const Triangle& of_degree,
+                                                     const TriangleShape& shape,
+                                                     const Eigen::Matrix3d& c) {
   const double along = c(0, 0) / (c(0, 0) * c(0, 0) - c(0, 1) * c(0, 1)), shear = 1 / c(2, 2);
   const auto &g = shape.gradients.col(0), &h = shape.gradients.col(1);
-  return shape.area_mm2 * (along + shear) / 2 *
-         (g.squaredNorm() * diagonals.col(0) + h.squaredNorm() * diagonals.col(1) +
-          2 * g.dot(h) * diagonals.col(2));
+  const double gg = g.squaredNorm(), hh = h.squaredNorm(), gh = 2 * g.dot(h);
+  const auto& [D11, D22, D12] = of_degree.products;
+  std::array<double, Triangle::most_nodes> stiffness{};
+  for (int m = 0; m < of_degree.nodes; ++m)
+    stiffness[m] =
+        shape.area_mm2 * (along + shear) / 2 * (gg * D11(m, m) + hh * D22(m, m) + gh * D12(m, m));
+  return stiffness;
 }
 
 // Half the gradient of a triangle's ‖σ − Aε(w)‖², N: K_e (w − w_e) with its displacement w_e.
-template <int k>
-LocalCoefficients<k> half_gradient(const TriangleShape& shape, const Eigen::Matrix3d& elasticity,
-                                   const LocalCoefficients<k>& own, const DisplacementField& w,
-                                   const std::array<int, Triangle<k>::nodes>& nodes) {
-  LocalCoefficients<k> difference;
-  for (int m = 0; m < Triangle<k>::nodes; ++m) difference.col(m) = w.col(nodes[m]) - own.col(m);
-  const typename Triangle<k>::Strain strain = Triangle<k>::strain(shape.gradients, difference),
-                                     weighted = strain.lazyProduct(Triangle<k>::constants().mass);
-  return Triangle<k>::forces(shape.gradients,
-                             (shape.area_mm2 * elasticity).lazyProduct(weighted).eval());
+Triangle::Displacement half_gradient(const Triangle& of_degree, const TriangleShape& shape,
+                                     const Eigen::Matrix3d& elasticity,
+                                     const Triangle::DisplacementRef& own,
+                                     const DisplacementField& w, const Triangle::Nodes& nodes) {
+  Triangle::Displacement difference(2, of_degree.nodes);
+  for (int m = 0; m < of_degree.nodes; ++m) difference.col(m) = w.col(nodes[m]) - own.col(m);
+  const Triangle::Strain weighted =
+      of_degree.strain(shape.gradients, difference).lazyProduct(of_degree.mass);
+  const Eigen::Matrix3d stiffness = shape.area_mm2 * elasticity;
+  return of_degree.forces(shape.gradients, stiffness.lazyProduct(weighted).eval());
 }
 
 // Calls visit(triangle, shape, elasticity, nodes) for all triangles.
-template <int k, typename Visit>
-void for_triangles(const Problem& problem, Visit visit) {
+template <typename Visit>
+void for_triangles(const Problem& problem, int degree, Visit visit) {
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
     visit(t, TriangleShape(problem.vertices_of(t)), elasticity[problem.mesh.triangle_body[t]],
-          triangle_nodes<k + 1>(problem, t));
+          triangle_nodes(problem, degree, t));
 }
 
 // Sets the inner coefficients to those that minimise ‖σ − Aε(w)‖ for the others: K_ii d = −f_i.
-template <int k>
-void set_inner(const Problem& problem, const std::vector<LocalCoefficients<k>>& own,
+void set_inner(const Problem& problem, const Triangle& of_degree, const Eigen::Matrix2Xd& own,
                DisplacementField& w) {
-  constexpr int inner = Triangle<k>::inner, outer = Triangle<k>::outer;
-  if constexpr (inner > 0)
-    for_triangles<k>(problem, [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
-                                  const auto& nodes) {
-      Eigen::Matrix<double, 2 * inner, 1> step =
-          half_gradient<k>(shape, A, own[t], w, nodes).template rightCols<inner>().reshaped();
-      const SmallCholesky<double, 2 * inner> factor(
-          Triangle<k>::template stiffness<outer, inner>(shape, A));
-      if (!(factor.last_pivot() > 0)) return;
-      factor.solve(step);
-      for (int m = 0; m < inner; ++m) w.col(nodes[outer + m]) -= step.template segment<2>(2 * m);
-    });
+  const int inner = of_degree.inner, outer = of_degree.outer;
+  if (inner == 0) return;
+  for_triangles(
+      problem, of_degree.degree,
+      [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
+          const Triangle::Nodes& nodes) {
+        const auto of_triangle = own.middleCols(of_degree.nodes * t, of_degree.nodes);
+        Eigen::MatrixXd step =
+            half_gradient(of_degree, shape, A, of_triangle, w, nodes).rightCols(inner).reshaped();
+        const Eigen::MatrixXd K =
+            of_degree.stiffness(shape, A).bottomRightCorner(2 * inner, 2 * inner);
+        if (!solve_positive_definite(K, step)) return;
+        for (int m = 0; m < inner; ++m)
+          w.col(nodes[outer + m]) -= Eigen::Vector2d(step(2 * m), step(2 * m + 1));
+      });
 }
 
 // Of the Jacobi step: λmax grows like k + 3 (4.3, 5.1, 6.1, 7.2 on right triangles, ν = 0.3).
-template <int k>
-constexpr double damping = 2.4 / (k + 3);
+constexpr double damping(int k) { return 2.4 / (k + 3); }
 
 // Neighbours hold one another, so that single coefficients hardly move: in triangles whose height
 // is below this share of their longest side, or whose bulk modulus is above so many shear moduli.
@@ -137,45 +127,46 @@ struct JacobiStep {
       gain_Nmm;  // per node: what can be gained of it, by the step or in stiff triangles
 };
 
-template <int k>
 class Recovery {
  public:
   Recovery(const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
            const Eigen::MatrixXd& edge_moments)
       : problem_(*system.problem),
-        own_(stress.size()),
-        constraints_(system, k, F_C),
+        of_degree_(Triangle::of_degree(stress.degree() + 1)),
+        own_(2, of_degree_.nodes * static_cast<Eigen::Index>(stress.size())),
+        constraints_(system, stress.degree(), F_C),
         stress_(stress) {
-    static const OwnDisplacement<k> own_displacement;
-    const int nodes = displacement_nodes(problem_, k + 1);
+    const OwnDisplacement own_displacement(stress.degree());
+    const int nodes = displacement_nodes(problem_, of_degree_.degree);
     w_ = DisplacementField::Zero(2, nodes);
     stiffness_ = Eigen::VectorXd::Zero(nodes);
     for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
       const TriangleShape shape(problem_.vertices_of(t));
       const Eigen::Matrix3d& compliance = problem_.compliance_of(t);
-      own_[t] = own_displacement(shape, compliance, stress[t]);
-      set_rigid_motion<k>(problem_, t, edge_moments, own_[t]);
-      const Eigen::Matrix<double, Triangle<k>::nodes, 1> weight = stiffnesses<k>(shape, compliance);
-      const auto node = triangle_nodes<k + 1>(problem_, t);
-      for (int m = 0; m < Triangle<k>::nodes; ++m) {
-        w_.col(node[m]) += weight(m) * own_[t].col(m);
-        stiffness_(node[m]) += weight(m);
+      Triangle::Displacement own = own_displacement(shape, compliance, stress[t]);
+      set_rigid_motion(problem_, of_degree_, t, edge_moments, own);
+      own_.middleCols(of_degree_.nodes * t, of_degree_.nodes) = own;
+      const auto weight = stiffnesses(of_degree_, shape, compliance);
+      const auto node = triangle_nodes(problem_, of_degree_.degree, t);
+      for (int m = 0; m < of_degree_.nodes; ++m) {
+        w_.col(node[m]) += weight[m] * own.col(m);
+        stiffness_(node[m]) += weight[m];
       }
     }
     w_.array().rowwise() /= stiffness_.transpose().array();
     constraints_.apply(stiffness_, w_);
-    stiffness_ /= damping<k>;
+    stiffness_ /= damping(stress.degree());
   }
 
   DisplacementField displacement() {
     w_ = step().w;
     if (need_vertex_stars(problem_)) {
       const std::vector<bool> held = constraints_.nodes();
-      VertexStars<k> stars(problem_, own_, held);
+      VertexStars stars(problem_, of_degree_, own_, held);
       for (int sweep = 0; sweep < 2; ++sweep) stars.sweep(w_);
     }
     improve_where_needed();
-    set_inner<k>(problem_, own_, w_);
+    set_inner(problem_, of_degree_, own_, w_);
     return std::move(w_);
   }
 
@@ -184,18 +175,22 @@ class Recovery {
     JacobiStep result;
     result.gradient = Eigen::Matrix2Xd::Zero(2, w_.cols());
     result.gain_Nmm = Eigen::VectorXd::Zero(w_.cols());
-    for_triangles<k>(problem_, [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
-                                   const auto& nodes) {
-      const LocalCoefficients<k> force = half_gradient<k>(shape, A, own_[t], w_, nodes);
-      double distance = 0;
-      for (int m = 0; m < Triangle<k>::nodes; ++m) {
-        result.gradient.col(nodes[m]) += force.col(m);
-        distance += force.col(m).dot(w_.col(nodes[m]) - own_[t].col(m)) / 2;
-      }
-      result.distance_Nmm += distance;
-      if (is_stiff(shape, problem_.compliance_of(t)))
-        for (const int node : nodes) result.gain_Nmm(node) += distance / Triangle<k>::nodes;
-    });
+    for_triangles(problem_, of_degree_.degree,
+                  [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
+                      const Triangle::Nodes& nodes) {
+                    const auto own = own_.middleCols(of_degree_.nodes * t, of_degree_.nodes);
+                    const Triangle::Displacement force =
+                        half_gradient(of_degree_, shape, A, own, w_, nodes);
+                    double distance = 0;
+                    for (int m = 0; m < of_degree_.nodes; ++m) {
+                      result.gradient.col(nodes[m]) += force.col(m);
+                      distance += force.col(m).dot(w_.col(nodes[m]) - own.col(m)) / 2;
+                    }
+                    result.distance_Nmm += distance;
+                    if (is_stiff(shape, problem_.compliance_of(t)))
+                      for (const int node : nodes)
+                        result.gain_Nmm(node) += distance / of_degree_.nodes;
+                  });
     result.w = w_.array() - result.gradient.array().rowwise() / stiffness_.transpose().array();
     constraints_.apply(stiffness_, result.w);
     result.gain_Nmm.array() +=
@@ -236,17 +231,19 @@ class Recovery {
       is_free[node] = (sum += next.gain_Nmm(node)) > hardly_anything * next.distance_Nmm;
     for (int ring = 0; ring < rings; ++ring) is_free = with_neighbours(is_free);
     std::vector<ZoneTriangle> zone;
-    for_triangles<k>(problem_, [&](int, const TriangleShape& shape, const Eigen::Matrix3d& A,
-                                   const auto& nodes) {
-      if (std::ranges::any_of(nodes, [&](int node) { return is_free[node]; }))
-        zone.push_back({{nodes.begin(), nodes.end()}, Triangle<k>::stiffness(shape, A)});
-    });
+    for_triangles(
+        problem_, of_degree_.degree,
+        [&](int, const TriangleShape& shape, const Eigen::Matrix3d& A,
+            const Triangle::Nodes& nodes) {
+          if (std::ranges::any_of(nodes, [&](int node) { return is_free[node]; }))
+            zone.push_back({{nodes.begin(), nodes.end()}, of_degree_.stiffness(shape, A)});
+        });
     improve_zone(constraints_, zone, std::move(is_free), next.gradient, w_);
   }
   std::vector<bool> with_neighbours(const std::vector<bool>& chosen) const {
     std::vector<bool> wider = chosen;
     for (int t = 0; t < static_cast<int>(problem_.mesh.triangles.size()); ++t) {
-      const auto nodes = triangle_nodes<k + 1>(problem_, t);
+      const auto nodes = triangle_nodes(problem_, of_degree_.degree, t);
       if (std::ranges::any_of(nodes, [&](int node) { return chosen[node]; }))
         for (const int node : nodes) wider[node] = true;
     }
@@ -257,7 +254,8 @@ class Recovery {
   }
 
   const Problem& problem_;
-  std::vector<LocalCoefficients<k>> own_;  // per triangle: w_T
+  const Triangle& of_degree_;
+  Eigen::Matrix2Xd own_;  // one triangle after another: w_T
   DisplacementConstraints constraints_;
   const StressField& stress_;
   DisplacementField w_;
@@ -269,26 +267,22 @@ class Recovery {
 DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
                                          const Eigen::MatrixXd& edge_moments) {
-  return with_degree(stress.degree(), [&](auto k) {
-    return Recovery<k>(system, stress, F_C, edge_moments).displacement();
-  });
+  return Recovery(system, stress, F_C, edge_moments).displacement();
 }
 
 DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
                                           DisplacementField w) {
   const Problem& problem = *system.problem;
-  return with_degree(displacement_degree(problem, w) - 1, [&](auto k) {
-    Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(w.cols());
-    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-      const auto weight =
-          stiffnesses<k>(TriangleShape(problem.vertices_of(t)), problem.compliance_of(t));
-      const auto node = triangle_nodes<k + 1>(problem, t);
-      for (std::size_t m = 0; m < node.size(); ++m)
-        stiffness(node[m]) += weight(static_cast<Eigen::Index>(m));
-    }
-    DisplacementConstraints(system, k, F_C).apply(stiffness, w);
-    return w;
-  });
+  const auto& of_degree = Triangle::of_degree(displacement_degree(problem, w));
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(w.cols());
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const auto weight =
+        stiffnesses(of_degree, TriangleShape(problem.vertices_of(t)), problem.compliance_of(t));
+    const auto node = triangle_nodes(problem, of_degree.degree, t);
+    for (std::size_t m = 0; m < node.size(); ++m) stiffness(node[m]) += weight[m];
+  }
+  DisplacementConstraints(system, of_degree.degree - 1, F_C).apply(stiffness, w);
+  return w;
 }
 
 }  // namespace airybench

@@ -45,12 +45,13 @@ Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementFi
     const Eigen::Vector2d middle = (u.col(a) + 2 * u.col(vertices + edge) + u.col(b)) / 4;
     off.col(vertices + edge) = 2 * middle.cwiseAbs() + (off.col(a) + off.col(b)) / 2;
   }
+  const auto& quadratic = DisplacementTriangle::of_degree(2);
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, off.cols());
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const auto K = DisplacementTriangle<2>::stiffness(TriangleShape(problem.vertices_of(t)),
-                                                      elasticity[problem.mesh.triangle_body[t]]);
-    const std::array<int, 6> nodes = triangle_nodes(problem, t);
+    const auto K = quadratic.stiffness(TriangleShape(problem.vertices_of(t)),
+                                       elasticity[problem.mesh.triangle_body[t]]);
+    const auto nodes = triangle_nodes(problem, 2, t);
     Eigen::Matrix<double, 2, 6> own;
     for (int m = 0; m < 6; ++m) own.col(m) = off.col(nodes[m]);
     const Eigen::Matrix<double, 2, 6> of_triangle = (K.cwiseAbs() * own.reshaped()).reshaped(2, 6);
@@ -89,7 +90,7 @@ Eigen::Vector2d take_weak_forces(const Problem& problem, const std::vector<bool>
     for (const int edge : problem.edges.of_triangle[t]) {
       if (contact_row[edge] == Problem::no_row) continue;
       const EdgeFrame frame = problem.frame_at(contact_row[edge], 1, 2);
-      for (const int node : triangle_nodes(problem, t)) {
+      for (const int node : triangle_nodes(problem, 2, t)) {
         if (prescribed[node]) continue;
         sum += Eigen::Vector2d(frame.normal.dot(balance.col(node)),
                                frame.tangent.dot(balance.col(node)));

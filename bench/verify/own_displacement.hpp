@@ -16,24 +16,21 @@
 
 namespace airybench {
 
-template <int k>
 class OwnDisplacement {
  public:
-  using Triangle = DisplacementTriangle<k + 1>;
-  using Stress = Eigen::Matrix<double, 3, 3 * Triangle::strains>;  // coefficients by thirds, MPa
-
-  OwnDisplacement();
-  typename Triangle::Displacement operator()(const TriangleShape& shape,
-                                             const Eigen::Matrix3d& compliance,
-                                             const Stress& stress) const;
+  explicit OwnDisplacement(int k);
+  // stress: coefficients by thirds, MPa.
+  DisplacementTriangle::Displacement operator()(
+      const TriangleShape& shape, const Eigen::Matrix3d& compliance,
+      const DisplacementTriangle::StressRef& stress) const;
 
  private:
-  static constexpr int n = Triangle::strains, conditions = k * (k - 1) / 2;
-  Eigen::Matrix<double, 3 * n, n> projection_;                  // Π, of coefficients by thirds
-  Eigen::Matrix<double, 2 * Triangle::nodes, 3 * n> integral_;  // ε̂ → û
-  Eigen::Matrix<double, 3 * n, conditions> condition_;          // N
-  std::array<Eigen::Matrix<double, conditions, conditions>, 6> product_;  // N_m
-  Eigen::Matrix<double, n, n> mass_inverse_;
+  const DisplacementTriangle& triangle_;
+  Eigen::MatrixXd projection_;              // Π, of coefficients by thirds
+  Eigen::MatrixXd integral_;                // ε̂ → û
+  Eigen::MatrixXd condition_;               // N
+  std::array<Eigen::MatrixXd, 6> product_;  // N_m
+  Eigen::MatrixXd mass_inverse_;
 };
 
 }  // namespace airybench

@@ -18,27 +18,23 @@ namespace airybench {
 // alone come within 1.2 times the minimum.
 bool need_vertex_stars(const Problem& problem);
 
-template <int k>
 class VertexStars {
  public:
-  using Triangle = DisplacementTriangle<k + 1>;
-  using OfTriangle = typename Triangle::Displacement;
-
-  // own: per triangle, the displacement with the stress nearest to σ. held: fixed.
-  VertexStars(const Problem& problem, const std::vector<OfTriangle>& own,
-              const std::vector<bool>& held);
+  // own: one triangle after another, the coefficients of the displacement with the stress nearest
+  // to σ. held: fixed.
+  VertexStars(const Problem& problem, const DisplacementTriangle& triangle,
+              const Eigen::Matrix2Xd& own, const std::vector<bool>& held);
   // Leaves inner coefficients as they are.
   void sweep(DisplacementField& w);
 
  private:
-  static constexpr int outer = Triangle::outer;
-  using Stiffness = Eigen::Matrix<double, 2 * outer, 2 * outer>;
   void improve(int vertex, DisplacementField& w);
 
   const Problem& problem_;
-  const std::vector<OfTriangle>& own_;
+  const DisplacementTriangle& of_degree_;
+  const Eigen::Matrix2Xd& own_;
   const std::vector<bool>& held_;
-  std::vector<Stiffness> K_;           // per triangle, of the outer nodes, without the inner ones
+  std::vector<Eigen::MatrixXd> K_;     // per triangle, of the outer nodes, without the inner ones
   std::vector<int> order_;             // vertices by x, then y
   std::vector<int> first_, triangle_;  // triangles of vertex v from triangle_[first_[v]]
   std::vector<int> free_, number_;     // nodes of a star; node → place there, or −1

@@ -67,13 +67,12 @@ class ElementMatricesIn {
     lower.push_back(of_lower);
   }
   // K_e: its lower triangle is read.
-  template <int n>
   void add(std::span<const int> of_element, const Point& at,
-           const Eigen::Matrix<Scalar, n, n>& K_e) {
-    std::array<Scalar, n*(n + 1) / 2> of_lower;
-    auto* entry = of_lower.data();
-    for (int j = 0; j < n; ++j)
-      for (int i = j; i < n; ++i) *entry++ = K_e(i, j);
+           const Eigen::Ref<const Eigen::MatrixX<Scalar>>& K_e) {
+    std::vector<Scalar> of_lower;
+    of_lower.reserve(static_cast<std::size_t>(lower.length()));
+    for (int j = 0; j < size; ++j)
+      for (int i = j; i < size; ++i) of_lower.push_back(K_e(i, j));
     add(of_element, at, of_lower.data());
   }
   // An unknown by itself.

@@ -1,12 +1,11 @@
-// One triangle of the hybridized system (hybridized.hpp), in any scalar: what goes in and comes out
-// for stresses of every degree k, and how for k = 1; degree_element.hpp has the others.
+// One triangle of the hybridized system (hybridized.hpp) with stresses of degree k
+// (equilibrium_element.hpp), in any scalar: what goes in and comes out.
 //
 //   S_e φ_e = T_eᵀ ū_e − p_e,   F_e = T_e φ_e + F_p   ⇒   F_e = K_e ū_e + f_e
 //   K_e = T_e S_e⁻¹ T_eᵀ,       f_e = F_p − T_e S_e⁻¹ p_e
 //
-// over the nine unknowns φ_e that are left when vertex 1's three are dropped. Edge components are
-// those of EdgeUnknowns. K_e = RᵀR with R = L⁻¹T_eᵀ, S_e = LLᵀ from the
-// stresses themselves (SmallCholesky::of_root): it is positive semidefinite to rounding.
+// Edge components are those of EdgeUnknowns. K_e = RᵀR with R = L⁻¹T_eᵀ, S_e = LLᵀ: it is positive
+// semidefinite to rounding.
 //
 // What goes in and what comes out are plain arrays, matrices by columns, so that elements in double
 // can be gathered into packs (hybrid_kernels.hpp).
@@ -16,13 +15,11 @@
 
 #include "assembly/equilibrium_element.hpp"
 #include "assembly/problem.hpp"
-#include "assembly/small_cholesky.hpp"
-#include "assembly/stress_field.hpp"
 
 namespace airybench {
 
 // What an element is made from. Its unknowns are, per edge and moment, two components of ū.
-template <typename Scalar, int k = 1>
+template <typename Scalar, int k>
 struct HybridInput {
   Data<Scalar> vertices[6];        // TriangleVertices
   Data<Scalar> compliance[9];      // C
@@ -31,7 +28,7 @@ struct HybridInput {
   Scalar particular[9];            // σ_p at the vertices
 };
 
-template <typename Scalar, int k = 1>
+template <typename Scalar, int k>
 struct HybridStiffness {
   static constexpr int size = StressDegree<k>::size;
   Scalar lower[size * (size + 1) / 2];  // K_e's lower triangle, N/mm
@@ -39,7 +36,7 @@ struct HybridStiffness {
   Scalar independence;  // of the stresses: S_e is positive definite if it is above rounding
 };
 
-template <typename Scalar, int k = 1>
+template <typename Scalar, int k>
 struct HybridStress {
   Scalar stress[3 * StressDegree<k>::coefficients];  // the total stress that ū_e makes, MPa
   Scalar forces[StressDegree<k>::size];              // of that stress on the edges, N
@@ -50,28 +47,14 @@ struct HybridStress {
 };
 
 // rows: per edge (rows_in_frame).
-template <typename Scalar, int k = 1>
+template <typename Scalar, int k>
 HybridInput<Scalar, k> hybrid_input(const Problem& problem, const std::vector<int>& rows,
                                     int triangle);
 
-template <typename Scalar>
-struct HybridElement {
-  HctStressIn<Scalar, 9> stress;
-  Scalar area;                                     // mm²
-  SmallCholesky<Scalar, 9> flexibility;            // S_e, factorised
-  Eigen::Matrix<Scalar, 9, 12> forces;             // T_eᵀ
-  bool loaded;                                     // by a body force; else the rest is zero
-  ElementStressIn<Scalar> particular;              // σ_p
-  Eigen::Matrix<Scalar, 9, 1> particular_load;     // p_e
-  Eigen::Matrix<Scalar, 12, 1> particular_forces;  // F_p
-};
-
-template <typename Scalar>
-HybridElement<Scalar> make_hybrid_element(const HybridInput<Scalar>& input, bool loaded);
-template <typename Scalar>
-HybridStiffness<Scalar> hybrid_stiffness(const HybridInput<Scalar>& input, bool loaded);
-template <typename Scalar>
-HybridStress<Scalar> hybrid_stress(const HybridInput<Scalar>& input, bool loaded,
-                                   const Eigen::Matrix<Scalar, 12, 1>& displacement);
+template <typename Scalar, int k>
+HybridStiffness<Scalar, k> hybrid_stiffness(const HybridInput<Scalar, k>& input, bool loaded);
+template <typename Scalar, int k>
+HybridStress<Scalar, k> hybrid_stress(const HybridInput<Scalar, k>& input, bool loaded,
+                                      typename EquilibriumElement<Scalar, k>::OnEdges displacement);
 
 }  // namespace airybench

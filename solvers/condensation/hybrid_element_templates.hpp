@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include "assembly/edge_forces_templates.hpp"
-#include "assembly/hct_templates.hpp"
-#include "assembly/stress_field_templates.hpp"
+#include "assembly/equilibrium_element.hpp"
 #include "solvers/condensation/edge_unknowns.hpp"
 #include "solvers/condensation/hybrid_element.hpp"
 
@@ -36,110 +34,97 @@ HybridInput<Scalar, k> hybrid_input(const Problem& problem, const std::vector<in
   return input;
 }
 
-// How the components of EdgeUnknowns make an element's edge components: x, y at the start and at
-// the end of its walk along an edge.
-template <typename Scalar>
-Eigen::Matrix4<Scalar> edge_components(const HybridInput<Scalar>& input, int edge) {
-  const Scalar along = input.from_start[edge], against = Scalar(1) - along;
-  Eigen::Matrix4<Scalar> q;
-  for (int end = 0; end < 2; ++end) {
-    const Eigen::Map<const Eigen::Matrix2<Scalar>> own(input.components[edge][end]);
-    q.template block<2, 2>(2 * end, 2 * end) = along * own;
-    q.template block<2, 2>(2 * (1 - end), 2 * end) = against * own;
-  }
-  return q;
+// Takes pairs of numbers, per edge and moment, from the order of the element's walk to that of the
+// unknowns or back: it is its own inverse.
+template <typename Scalar, int k>
+void reorder(const HybridInput<Scalar, k>& input, Scalar* pairs) {
+  for (int e = 0; e < 3; ++e, pairs += 2 * (k + 1))
+    for (int j = 0; j < (k + 1) / 2; ++j)
+      for (int x = 0; x < 2; ++x) {
+        Scalar &low = pairs[2 * j + x], &high = pairs[2 * (k - j) + x];
+        const Scalar along = input.from_start[e], against = Scalar(1) - along;
+        const Scalar first = along * low + against * high;
+        high = along * high + against * low;
+        low = first;
+      }
 }
 
-template <typename Scalar>
-HybridElement<Scalar> make_hybrid_element(const HybridInput<Scalar>& input, bool loaded) {
-  const Eigen::Map<const TriangleVerticesFor<Scalar>> v(input.vertices);
-  const EdgeSignsFor<Scalar> outward = {1, 1, 1};  // K_e and stresses are the same for all signs
-  const Eigen::Matrix3<Data<Scalar>> compliance =
-      Eigen::Map<const Eigen::Matrix3<Data<Scalar>>>(input.compliance);
-  HybridElement<Scalar> element;
-  const hct_formulas::Corners<Scalar> c = hct_formulas::at_origin<Scalar>(v);
-  element.area = (c(0, 1) * c(1, 2) - c(1, 1) * c(0, 2)) / Scalar(2);
-  element.stress = hct_stress<Scalar, 9>(v, outward);
-  element.flexibility = SmallCholesky<Scalar, 9>::of_root(
-      hct_flexibility_root(element.stress, element.area, compliance));
-
-  element.loaded = loaded;
-  element.particular.setZero();
-  element.particular_load.setZero();
-  if (loaded) {
-    element.particular = linear_stress<1>(
-        Eigen::Matrix3<Scalar>(Eigen::Map<const Eigen::Matrix3<Scalar>>(input.particular)));
-    const Eigen::Matrix<Scalar, 27, 1> dual =
-        stress_dual<Scalar>(element.particular, element.area, compliance).reshaped();
-    element.particular_load = element.stress.transpose().lazyProduct(dual);
+// From x and y of the element's walk to the unknowns' components, and back.
+template <typename Scalar, int k>
+void to_unknowns(const HybridInput<Scalar, k>& input, Scalar* pairs) {
+  reorder(input, pairs);
+  const Scalar* q = &input.components[0][0][0];
+  for (int p = 0; p < 3 * (k + 1); ++p, pairs += 2, q += 4) {
+    const Scalar x = pairs[0], y = pairs[1];
+    pairs[0] = q[0] * x + q[1] * y;
+    pairs[1] = q[2] * x + q[3] * y;
   }
-
-  element.forces.setZero();
-  element.particular_forces.setZero();
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    const EdgeForcesIn<Scalar> f = edge_forces<Scalar>(v.col(k), v.col(next), outward[k]);
-    const Eigen::Matrix4<Scalar> q = edge_components(input, k);
-    const std::array<int, 7> dofs = {3 * k,        3 * k + 1,    3 * k + 2, 3 * next,
-                                     3 * next + 1, 3 * next + 2, 9 + k};
-    for (int j = 0; j < 7; ++j)
-      if (dofs[j] >= 3)
-        element.forces.template block<1, 4>(dofs[j] - 3, 4 * k) = f.col(j).transpose() * q;
-    if (loaded)
-      element.particular_forces.template segment<4>(4 * k) =
-          q.transpose() * element_edge_forces<Scalar>(v, element.particular, k).reshaped();
+}
+template <typename Scalar, int k>
+void to_walk(const HybridInput<Scalar, k>& input, Scalar* pairs) {
+  const Scalar* q = &input.components[0][0][0];
+  for (int p = 0; p < 3 * (k + 1); ++p, q += 4) {
+    const Scalar first = pairs[2 * p], second = pairs[2 * p + 1];
+    pairs[2 * p] = q[0] * first + q[2] * second;
+    pairs[2 * p + 1] = q[1] * first + q[3] * second;
   }
-  return element;
+  reorder(input, pairs);
 }
 
-template <typename Scalar>
-HybridStiffness<Scalar> hybrid_stiffness(const HybridInput<Scalar>& input, bool loaded) {
-  const HybridElement<Scalar> element = make_hybrid_element(input, loaded);
-  HybridStiffness<Scalar> result;
-  Eigen::Matrix<Scalar, 9, 12> root = element.forces;
-  element.flexibility.solve_lower(root);
-  Scalar* entry = result.lower;
-  for (int j = 0; j < 12; ++j)
-    for (int i = j; i < 12; ++i) *entry++ = root.col(i).dot(root.col(j));
-  Eigen::Map<Eigen::Matrix<Scalar, 12, 1>> f(result.load);
-  f = element.particular_forces;
+template <typename Matrix, typename Scalar>
+void copy(const Matrix& from, Scalar* to) {
+  for (int i = 0; i < from.size(); ++i) to[i] = from.data()[i];
+}
+
+template <typename Scalar, int k>
+EquilibriumElement<Scalar, k> element_of(const HybridInput<Scalar, k>& input) {
+  const Eigen::Map<const TriangleVerticesFor<Scalar>> vertices(input.vertices);
+  const Eigen::Map<const Eigen::Matrix3<Data<Scalar>>> compliance(input.compliance);
+  return {vertices, compliance};
+}
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Stress particular_of(const HybridInput<Scalar, k>& input) {
+  const Eigen::Matrix3<Scalar> at_vertices =
+      Eigen::Map<const Eigen::Matrix3<Scalar>>(input.particular);
+  return linear_stress<k>(at_vertices);
+}
+
+template <typename Scalar, int k>
+HybridStiffness<Scalar, k> hybrid_stiffness(const HybridInput<Scalar, k>& input, bool loaded) {
+  using Element = EquilibriumElement<Scalar, k>;
+  const Element element = element_of(input);
+  typename Element::Root R = element.root();
+  for (int i = 0; i < R.rows(); ++i) to_unknowns(input, &R(i, 0));
+  HybridStiffness<Scalar, k> result;
+  Element::square(R, result.lower);
+  for (Scalar& force : result.load) force = 0;
   if (loaded) {
-    Eigen::Matrix<Scalar, 9, 1> phi = element.particular_load;
-    element.flexibility.solve_lower(phi);
-    f -= root.transpose().lazyProduct(phi);
+    const typename Element::Stress particular = particular_of(input);
+    copy(element.edge_forces(particular), result.load);
+    to_unknowns(input, result.load);
+    element.subtract_outer_load(R, particular, result.load);
   }
-  result.independence = element.flexibility.independence();
+  result.independence = element.independence();
   return result;
 }
 
-template <typename Scalar>
-HybridStress<Scalar> hybrid_stress(const HybridInput<Scalar>& input, bool loaded,
-                                   const Eigen::Matrix<Scalar, 12, 1>& displacement) {
-  const HybridElement<Scalar> element = make_hybrid_element(input, loaded);
-  const Eigen::Map<const TriangleVerticesFor<Scalar>> v(input.vertices);
-  const Eigen::Map<const Eigen::Matrix3<Data<Scalar>>> compliance(input.compliance);
-  const Eigen::Matrix<Scalar, 9, 1> right = element.forces.lazyProduct(displacement);
-  HybridStress<Scalar> result;
-
-  Eigen::Matrix<Scalar, 9, 1> phi = right - element.particular_load;
-  element.flexibility.solve(phi);
-  ElementStressIn<Scalar> total = element.particular;
-  total.reshaped() += element.stress.lazyProduct(phi);
-  Eigen::Map<ElementStressIn<Scalar>>(result.stress) = total;
-
-  const Eigen::Matrix<Scalar, 27, 1> dual =
-      stress_dual<Scalar>(total, element.area, compliance).reshaped();
-  const Eigen::Matrix<Scalar, 9, 1> g = right - element.stress.transpose().lazyProduct(dual);
-  Eigen::Matrix<Scalar, 9, 1> correction = g;
-  element.flexibility.solve(correction);
-  result.defect_energy = g.dot(correction);
-  Eigen::Map<Eigen::Matrix<Scalar, 12, 1>>(result.defect) =
-      element.forces.transpose().lazyProduct(correction);
-
-  for (int k = 0; k < 3; ++k)
-    Eigen::Map<Eigen::Vector4<Scalar>>(result.forces + 4 * k) =
-        edge_components(input, k).transpose().lazyProduct(
-            element_edge_forces<Scalar>(v, total, k).reshaped());
+template <typename Scalar, int k>
+HybridStress<Scalar, k> hybrid_stress(
+    const HybridInput<Scalar, k>& input, bool loaded,
+    typename EquilibriumElement<Scalar, k>::OnEdges displacement) {
+  using Element = EquilibriumElement<Scalar, k>;
+  const Element element = element_of(input);
+  to_walk(input, displacement.data());
+  const typename Element::Stress total =
+      loaded ? element.stress(displacement, particular_of(input)) : element.stress(displacement);
+  const typename Element::Defect defect = element.defect(displacement, total);
+  HybridStress<Scalar, k> result;
+  copy(total, result.stress);
+  copy(element.edge_forces(total), result.forces);
+  to_unknowns(input, result.forces);
+  copy(defect.forces, result.defect);
+  to_unknowns(input, result.defect);
+  result.defect_energy = defect.energy;
   return result;
 }
 

@@ -1,4 +1,4 @@
-// hybrid_element.hpp and degree_element.hpp for several elements at a time: in double one per lane
+// hybrid_element.hpp for several elements at a time: in double one per lane
 // of the widest vector instructions that the processor has, in other scalars one by one.
 //
 // One program serves all processors: the kernels are compiled once per instruction set

@@ -8,7 +8,6 @@
 // reads the object's symbols.
 #include "assembly/equilibrium_element_templates.hpp"
 #include "solvers/base/pack.hpp"
-#include "solvers/condensation/degree_element.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
 

@@ -17,18 +17,19 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
   }
   add_tractions(problem, system.unknown, unbalanced.r);
   std::vector<int> unknowns;
-  visit_stresses(problem, system, u, [&](int t, const StressOfTriangle<double>& of_triangle) {
-    auto stress = answer.stress[static_cast<std::size_t>(t)];
-    std::copy_n(of_triangle.stress, stress.size(), stress.data());
-    unbalanced.defect_energy += std::max(0.0, of_triangle.defect_energy);
-    element_unknowns(problem, system.unknown, t, unknowns);
-    for (std::size_t k = 0; k < unknowns.size(); ++k) {
-      unbalanced.largest = std::max(unbalanced.largest, std::abs(of_triangle.forces[k]));
-      if (unknowns[k] == prescribed_unknown) continue;
-      unbalanced.r(unknowns[k]) -= of_triangle.forces[k];
-      unbalanced.defect(unknowns[k]) -= of_triangle.defect[k];
-    }
-  });
+  visit_stresses<double>(
+      problem, system, u, [&](int t, const StressOfTriangle<double>& of_triangle) {
+        auto stress = answer.stress[static_cast<std::size_t>(t)];
+        std::copy_n(of_triangle.stress, stress.size(), stress.data());
+        unbalanced.defect_energy += std::max(0.0, of_triangle.defect_energy);
+        element_unknowns(problem, system.unknown, t, unknowns);
+        for (std::size_t k = 0; k < unknowns.size(); ++k) {
+          unbalanced.largest = std::max(unbalanced.largest, std::abs(of_triangle.forces[k]));
+          if (unknowns[k] == prescribed_unknown) continue;
+          unbalanced.r(unknowns[k]) -= of_triangle.forces[k];
+          unbalanced.defect(unknowns[k]) -= of_triangle.defect[k];
+        }
+      });
   return answer;
 }
 

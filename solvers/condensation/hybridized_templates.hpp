@@ -1,10 +1,10 @@
 // The templates of hybridized.hpp, to be instantiated for another scalar.
 #pragma once
 
+#include <functional>
 #include <limits>
 
 #include "assembly/edge_forces.hpp"
-#include "solvers/condensation/degree_element.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
 #include "solvers/condensation/hybridized.hpp"
@@ -116,8 +116,9 @@ struct StressOfTriangle {
 };
 
 // Calls visit(triangle, its stiffness). Throws Breakdown where there is none.
-template <typename Scalar, typename Visit>
-void visit_stiffness(const Problem& problem, int degree, Visit visit) {
+template <typename Scalar>
+void visit_stiffness(const Problem& problem, int degree,
+                     const std::function<void(int, const StiffnessOfTriangle<Scalar>&)>& visit) {
   constexpr double few_roundings = 100 * std::numeric_limits<double>::epsilon();
   const auto checked = [&](int t, const StiffnessOfTriangle<Scalar>& of_triangle) {
     if (!(of_triangle.independence > few_roundings))
@@ -182,9 +183,10 @@ void set_load_case(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
 }
 
 // Calls visit(triangle, the stress that u makes of its edges).
-template <typename Scalar, typename Visit>
+template <typename Scalar>
 void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
-                    const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u, Visit visit) {
+                    const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u,
+                    const std::function<void(int, const StressOfTriangle<Scalar>&)>& visit) {
   const bool loaded = problem.loads.has_body_force();
   with_degree(system.degree(), [&](auto k) {
     const auto kernels = hybrid_kernels<Scalar, k>();
@@ -206,11 +208,12 @@ template <typename Scalar>
 StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                               const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u) {
   StressField field(problem.mesh.triangles.size(), system.degree());
-  visit_stresses(problem, system, u, [&](int t, const StressOfTriangle<Scalar>& of_triangle) {
-    auto own = field[static_cast<std::size_t>(t)];
-    own = Eigen::Map<const Eigen::Matrix3X<Scalar>>(of_triangle.stress, 3, own.cols())
-              .template cast<double>();
-  });
+  visit_stresses<Scalar>(
+      problem, system, u, [&](int t, const StressOfTriangle<Scalar>& of_triangle) {
+        auto own = field[static_cast<std::size_t>(t)];
+        own = Eigen::Map<const Eigen::Matrix3X<Scalar>>(of_triangle.stress, 3, own.cols())
+                  .template cast<double>();
+      });
   return field;
 }
 

@@ -61,77 +61,73 @@ void add_nodal(Eigen::Matrix2Xd forces, const std::map<int, Eigen::Matrix2d>& fr
 }
 
 // A triangle in the unknowns' directions.
-template <int p>
 struct Element {
-  static constexpr int size = 2 * DisplacementTriangle<p>::nodes;
-  std::array<int, size / 2> nodes;
-  std::array<int, size> unknown;
-  Eigen::Matrix<double, size, 1> given;  // the prescribed coefficients, else 0
-  Eigen::Matrix<double, size, size> K;
+  DisplacementTriangle::Nodes nodes;
+  std::vector<int> unknown;
+  Eigen::VectorXd given;  // the prescribed coefficients, else 0
+  DisplacementTriangle::Stiffness K;
 };
 
-template <int p>
-Element<p> element(const Problem& problem, const DisplacementSystem& system,
-                   const std::map<int, Eigen::Matrix2d>& frame, int t,
-                   const Eigen::Matrix3d& elasticity) {
-  Element<p> result;
-  result.nodes = triangle_nodes<p>(problem, t);
-  result.K = DisplacementTriangle<p>::stiffness(TriangleShape(problem.vertices_of(t)), elasticity);
-  for (int m = 0; m < Element<p>::size / 2; ++m) {
+Element element(const Problem& problem, const DisplacementSystem& system,
+                const std::map<int, Eigen::Matrix2d>& frame, int t,
+                const Eigen::Matrix3d& elasticity) {
+  const auto& of_degree = DisplacementTriangle::of_degree(system.degree);
+  Element result{triangle_nodes(problem, system.degree, t),
+                 std::vector<int>(static_cast<std::size_t>(2 * of_degree.nodes)),
+                 Eigen::VectorXd(2 * of_degree.nodes),
+                 of_degree.stiffness(TriangleShape(problem.vertices_of(t)), elasticity)};
+  for (int m = 0; m < of_degree.nodes; ++m) {
     const int node = result.nodes[m];
     Eigen::Vector2d given = system.given.u.col(node);
     if (const auto own = frame.find(node); own != frame.end()) {
       const Eigen::Matrix2d& axes = own->second;
-      auto columns = result.K.template middleCols<2>(2 * m);
+      auto columns = result.K.middleCols<2>(2 * m);
       columns = columns.lazyProduct(axes).eval();
-      auto rows = result.K.template middleRows<2>(2 * m);
+      auto rows = result.K.middleRows<2>(2 * m);
       rows = axes.transpose().lazyProduct(rows).eval();
       given = axes.transpose() * given.eval();
     }
-    result.given.template segment<2>(2 * m) = given;
+    result.given.segment<2>(2 * m) = given;
     for (int k = 0; k < 2; ++k) result.unknown[2 * m + k] = system.unknown[node][k];
   }
   return result;
 }
 
 // b −= K_e u0 of a triangle.
-template <int p>
-void subtract_known_forces(const Element<p>& element, DisplacementSystem& system) {
+void subtract_known_forces(const Element& element, DisplacementSystem& system) {
   if (element.given.isZero(0)) return;
-  const Eigen::Matrix<double, Element<p>::size, 1> force = element.K.lazyProduct(element.given);
-  for (int j = 0; j < Element<p>::size; ++j)
+  const Eigen::VectorXd force = element.K.lazyProduct(element.given);
+  for (int j = 0; j < force.size(); ++j)
     if (element.unknown[j] != DisplacementSystem::prescribed)
       system.b(element.unknown[j]) -= force(j);
 }
 
-template <int p>
 void add_triangles(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
                    DisplacementSystem& system) {
   constexpr double rigid = 1e8;
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const Element<p> own =
-        element<p>(problem, system, frame, t, elasticity[problem.mesh.triangle_body[t]]);
+    const Element own =
+        element(problem, system, frame, t, elasticity[problem.mesh.triangle_body[t]]);
     const auto centre = centre_of(problem.vertices_of(t));
     system.K.add(own.unknown, centre, own.K);
     subtract_known_forces(own, system);
     if (system.held_tangent.empty()) continue;
-    for (int j = 1; j < Element<p>::size; j += 2)
+    for (int j = 1; j < system.K.size; j += 2)
       if (const auto row = system.held_tangent.find(own.nodes[j / 2]);
           row != system.held_tangent.end() && own.unknown[j] == DisplacementSystem::prescribed)
         system.K.add_diagonal(row->second, centre, rigid * own.K(j, j));
   }
 }
 
-template <int p>
 void subtract_known_forces(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
                            DisplacementSystem& system) {
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
-    if (std::ranges::any_of(triangle_nodes<p>(problem, t),
+    if (std::ranges::any_of(triangle_nodes(problem, system.degree, t),
                             [&](int node) { return !system.given.u.col(node).isZero(0); }))
       subtract_known_forces(
-          element<p>(problem, system, frame, t, elasticity[problem.mesh.triangle_body[t]]), system);
+          element(problem, system, frame, t, elasticity[problem.mesh.triangle_body[t]]), system);
 }
 
 void add_loads(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
@@ -155,12 +151,10 @@ DisplacementSystem assemble_displacement_system(const Problem& problem, int degr
   const int n = number_unknowns(problem, system);
   const std::map<int, Eigen::Matrix2d> frame = frames(system);
   system.b = Eigen::VectorXd::Zero(n);
-  with_degree(degree - 1, [&](auto k) {
-    system.K = ElementMatrices(Element<k + 1>::size);
-    system.K.order = n;
-    system.K.reserve(problem.mesh.triangles.size());
-    add_triangles<k + 1>(problem, frame, system);
-  });
+  system.K = ElementMatrices(2 * bernstein_count(degree));
+  system.K.order = n;
+  system.K.reserve(problem.mesh.triangles.size());
+  add_triangles(problem, frame, system);
   add_loads(problem, frame, system);
   return system;
 }
@@ -170,8 +164,7 @@ void set_load_case(const Problem& problem, DisplacementSystem& system) {
   system.given = prescribed_displacement(problem, system.degree);
   system.b.setZero();
   const std::map<int, Eigen::Matrix2d> frame = frames(system);
-  with_degree(system.degree - 1,
-              [&](auto k) { subtract_known_forces<k + 1>(problem, frame, system); });
+  subtract_known_forces(problem, frame, system);
   add_loads(problem, frame, system);
 }
 

@@ -23,7 +23,7 @@ TEST(DisplacementField, StressOfQuadraticFieldsIsExact) {
         make_problem(small_tooth(5, 4), {compliance({young, poisson}, Plane::stress)},
                      testing::loads_of(exact), 0);
     const StressField stress =
-        stress_of_displacement(problem, testing::interpolated<2>(problem, exact.displacement));
+        stress_of_displacement(problem, testing::interpolated(problem, 2, exact.displacement));
     for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
       const TriangleVertices v = problem.vertices_of(t);
       for (int c = 0; c < 9; ++c) {
@@ -70,7 +70,7 @@ TEST(DisplacementField, PolynomialsOfItsDegreeAreExact) {
   for_all_degrees([&](auto degree) {
     constexpr int p = degree, k = p - 1;
     const testing::Polynomial exact(p, 10, 7 + p);
-    const DisplacementField u = testing::interpolated<p>(problem, exact);
+    const DisplacementField u = testing::interpolated(problem, p, exact);
     const StressField stress = stress_of_displacement(problem, u);
     ASSERT_EQ(stress.degree(), k);
     for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
@@ -100,7 +100,7 @@ TEST(DisplacementField, PolynomialsOfItsDegreeAreExact) {
     }
     // Against the field of the highest degree, which is the same function.
     constexpr int highest = highest_stress_degree + 1;
-    const DisplacementField same = testing::interpolated<highest>(problem, exact);
+    const DisplacementField same = testing::interpolated(problem, highest, exact);
     const double work = work_of_loads(problem, u);
     EXPECT_NEAR(work, work_of_loads(problem, same), 1e-11 * (1 + std::abs(work))) << p;
     const double energy = stress_norm_squared(problem, stress);
@@ -120,7 +120,7 @@ TEST(DisplacementField, OfEveryDegreeItTakesRigidMotionAndPrescribedValuesExactl
       make_problem(small_tooth(3, 2), {compliance({young, poisson}, Plane::strain)}, loads, 0);
   for_all_degrees([&](auto degree) {
     constexpr int p = degree;
-    const DisplacementField expected = testing::interpolated<p>(problem, u0);
+    const DisplacementField expected = testing::interpolated(problem, p, u0);
     const PrescribedDisplacement given = prescribed_displacement(problem, p);
     const DisplacementField u = with_rigid_motion(problem, given.u);
     int held = 0;
@@ -132,7 +132,7 @@ TEST(DisplacementField, OfEveryDegreeItTakesRigidMotionAndPrescribedValuesExactl
     EXPECT_EQ(held, 2 * p + 1);  // two edges
     const auto rigid = [&](const Eigen::Vector2d& x) { return problem.motion.at(x); };
     const DisplacementField zero = DisplacementField::Zero(2, u.cols());
-    EXPECT_LT((with_rigid_motion(problem, zero) - testing::interpolated<p>(problem, rigid)).norm(),
+    EXPECT_LT((with_rigid_motion(problem, zero) - testing::interpolated(problem, p, rigid)).norm(),
               1e-12)
         << p;
   });
@@ -144,16 +144,16 @@ TEST(DisplacementTriangle, ItsStiffnessIsTheEnergyWithTheRigidMotionsAsItsKernel
   const Eigen::Matrix3d A = compliance({young, poisson}, Plane::strain).inverse();
   const TriangleShape shape(v);
   for_all_degrees([&](auto degree) {
-    using Triangle = DisplacementTriangle<degree>;
-    const auto K = Triangle::stiffness(shape, A);
+    const auto& triangle = DisplacementTriangle::of_degree(degree);
+    const Eigen::MatrixXd K = triangle.stiffness(shape, A);
     EXPECT_LT((K - K.transpose()).norm(), 1e-14 * K.norm());
     const Eigen::VectorXd eigenvalues = testing::eigenvalues(K);
     EXPECT_LT(eigenvalues.head(3).cwiseAbs().maxCoeff(), 1e-13 * K.norm());
     EXPECT_GT(eigenvalues(3), 1e-6 * K.norm());
-    const typename Triangle::Displacement u = Triangle::Displacement::Random();
-    const typename Triangle::Strain strain = Triangle::strain(shape.gradients, u),
-                                    dual = shape.area_mm2 * A * strain * Triangle::constants().mass;
-    const typename Triangle::Displacement force = Triangle::forces(shape.gradients, dual);
+    const Eigen::Matrix2Xd u = Eigen::Matrix2Xd::Random(2, triangle.nodes);
+    const Eigen::Matrix3Xd strain = triangle.strain(shape.gradients, u),
+                           dual = shape.area_mm2 * A * strain * triangle.mass;
+    const Eigen::Matrix2Xd force = triangle.forces(shape.gradients, dual);
     EXPECT_LT((K * u.reshaped() - force.reshaped()).norm(), 1e-12 * force.norm());
     EXPECT_NEAR(strain.cwiseProduct(dual).sum(), u.cwiseProduct(force).sum(), 1e-10 * force.norm());
   });
@@ -167,7 +167,7 @@ TEST(DisplacementField, ClapeyronsTheorem) {
     for (BoundaryEdge& edge : mesh.boundary) edge.role = BoundaryRole::force;
     const Problem problem = make_problem(mesh, {compliance({young, poisson}, Plane::stress)},
                                          testing::loads_of(exact), 0);
-    const DisplacementField u = testing::interpolated<2>(problem, exact.displacement);
+    const DisplacementField u = testing::interpolated(problem, 2, exact.displacement);
     const double strain_energy =
         stress_norm_squared(problem, stress_of_displacement(problem, u)) / 2;
     EXPECT_NEAR(strain_energy - work_of_loads(problem, u), -strain_energy, 1e-11 * strain_energy)
@@ -202,7 +202,7 @@ TEST(DisplacementField, NodalLoadsHaveTheLoadsResultantAndMoment) {
       work += s.norm() / 6 * (at(a) + 4 * at((a + b) / 2) + at(b));
     }
     const double by_nodes =
-        nodal_loads(problem).cwiseProduct(testing::interpolated<2>(problem, motion)).sum();
+        nodal_loads(problem).cwiseProduct(testing::interpolated(problem, 2, motion)).sum();
     EXPECT_NEAR(by_nodes, work, 1e-10 * (1 + std::abs(work)));
   }
 }

@@ -1,12 +1,10 @@
-// HYBRID:k=…: the default tooth and others by stresses of every degree; HYBRID's answer from the
-// general element for k = 1, the reference values as k grows, the contact law, loads and supports.
+// HYBRID:k=…: the default tooth and others by stresses of every degree; the reference
+// values as k grows, the contact law, loads and supports.
 #include <gtest/gtest.h>
 
 #include "assembly/elasticity.hpp"
 #include "assembly/equilibrium_element.hpp"
 #include "mesh/bisection.hpp"
-#include "solvers/condensation/degree_element.hpp"
-#include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/contact/linear_tractions.hpp"
@@ -49,14 +47,6 @@ Eigen::Vector2d resultant(const Solved& s) {
   return sum;
 }
 
-Scene loaded_scene() {
-  Scene scene;
-  scene.body_force_N_per_mm3 = {0.4, -0.2};
-  LinearValue<double> pressure{{20, 40}, {Eigen::Vector2d(0, 0), Eigen::Vector2d(10, 0)}};
-  scene.boundary["force"].pressure_MPa = pressure;
-  return scene;
-}
-
 // Newton's method starts from the answer in linear tractions: the same answer in fewer steps of
 // full size than from zero.
 TEST(Degrees, ContactStartsFromLinearTractions) {
@@ -90,46 +80,6 @@ TEST(Degrees, ContactStartsFromLinearTractions) {
     ASSERT_TRUE(near.converged && far.converged) << degree;
     EXPECT_LT((near.F_C - far.F_C).norm(), 1e-9 * far.F_C.norm()) << degree;
     EXPECT_LT(near.active_set_steps, far.active_set_steps) << degree;
-  }
-}
-
-// K_e and f_e of the general element are those of HYBRID's vectorised one.
-TEST(Degrees, TheGeneralElementOfDegreeOneIsHybrids) {
-  Scene rolling, inclined, socket;
-  rolling.body_force_N_per_mm3 = {0.4, -0.2};
-  inclined.crown_radius_mm.reset();
-  inclined.wall = FlatWall{{10.004, 0}, {-1, 0.002}};
-  rolling.boundary["displacement"].support = BoundaryValues::Support::normal;
-  const Mesh tooth = small_tooth(3, 2),
-             guided = testing::with_role(tooth, BoundaryRole::force, BoundaryRole::displacement);
-  socket.crown_radius_mm.reset();
-  socket.wall = CircularWall{{-40, 0}, 50.01, CircularWall::Bodies::inside};
-  for (const auto& [scene, mesh] : {std::pair(Scene{}, tooth),
-                                    {loaded_scene(), tooth},
-                                    {rolling, guided},
-                                    {inclined, tooth},
-                                    {socket, tooth}}) {
-    const auto problem = testing::posed(scene, mesh);
-    const bool loaded = problem->loads.has_body_force();
-    const HybridizedSystem system = assemble_hybridized(*problem, contact_points(*problem));
-    const std::vector<int> rows = rows_in_frame(*problem);
-    for (int t = 0; t < system.K.count(); ++t) {
-      const HybridInput<double> input = hybrid_input<double, 1>(*problem, rows, t);
-      const HybridStiffness<double> general = degree_stiffness(input, loaded),
-                                    hybrid = hybrid_stiffness(input, loaded);
-      using Lower = Eigen::Map<const Eigen::Matrix<double, 78, 1>>;
-      using OnEdges = Eigen::Matrix<double, 12, 1>;
-      const Lower own(system.K.lower[t].data());
-      EXPECT_LT((Lower(general.lower) - own).norm(), 1e-11 * own.norm()) << t;
-      const Eigen::Map<const OnEdges> load(general.load);
-      EXPECT_LT((load - Eigen::Map<const OnEdges>(hybrid.load)).norm(), 1e-11 * (1 + load.norm()));
-      const OnEdges u = 1e-3 * OnEdges::LinSpaced(0, 11).array().sin();
-      const HybridStress<double> stress = degree_stress(input, loaded, u),
-                                 of_hybrid = hybrid_stress(input, loaded, u);
-      const Eigen::Map<const OnEdges> forces(stress.forces);
-      EXPECT_LT((forces - Eigen::Map<const OnEdges>(of_hybrid.forces)).norm(),
-                1e-11 * (1 + forces.norm()));
-    }
   }
 }
 

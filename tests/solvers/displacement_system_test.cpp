@@ -72,7 +72,7 @@ auto displacement_of(double nu, Function phi, Derivative of_phi) {
 template <int p, typename Function>
 DisplacementField between_values_of(const Function& u, const Problem& problem) {
   DisplacementSystem system = assemble_displacement_system(problem, p);
-  system.given.u = testing::interpolated<p>(problem, u);
+  system.given.u = testing::interpolated(problem, p, u);
   for (std::size_t node = 0; node < system.given.at.size(); ++node)
     if (!system.given.at[node]) system.given.u.col(static_cast<Eigen::Index>(node)).setZero();
   const Eigen::VectorXd b = unbalanced_forces(
@@ -95,7 +95,7 @@ TEST_P(Displacements, ReproducePolynomialsOfTheirDegreeUpToIncompressibility) {
       const auto exact = displacement_of(
           nu, [n = degree](Complex z) { return power(z, n); },
           [n = degree](Complex z) { return power(z, n - 1) * double(n); });
-      const DisplacementField expected = testing::interpolated<degree>(problem, exact);
+      const DisplacementField expected = testing::interpolated(problem, degree, exact);
       EXPECT_LT((between_values_of<degree>(exact, problem) - expected).norm(),
                 (nu > 0.4 ? 1e-9 : 1e-12) * expected.norm())
           << nu;
@@ -205,18 +205,15 @@ TEST_P(Displacements, ContactForcesBalanceReactionsAndLoads) {
   const Solution solution = solve(problem);
   // Reactions from the definition: Σ over all nodes of the elements' forces is zero.
   Eigen::Vector2d reactions = Eigen::Vector2d::Zero(), contact = Eigen::Vector2d::Zero();
-  with_degree(k, [&](auto stress_degree) {
-    using Triangle = DisplacementTriangle<stress_degree + 1>;
-    for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t) {
-      const auto K = Triangle::stiffness(TriangleShape(problem->vertices_of(t)),
-                                         elasticity_of(problem->compliance_of(t)));
-      const auto nodes = triangle_nodes<stress_degree + 1>(*problem, t);
-      const Eigen::VectorXd force =
-          K * of_triangle<stress_degree + 1>(*problem, solution.displacement, t).reshaped();
-      for (int m = 0; m < Triangle::nodes; ++m)
-        if (system.given.at[nodes[m]]) reactions += force.segment<2>(2 * m);
-    }
-  });
+  const auto& triangle = DisplacementTriangle::of_degree(p);
+  for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t) {
+    const auto K = triangle.stiffness(TriangleShape(problem->vertices_of(t)),
+                                      elasticity_of(problem->compliance_of(t)));
+    const auto nodes = triangle_nodes(*problem, p, t);
+    const Eigen::VectorXd force = K * of_triangle(*problem, p, solution.displacement, t).reshaped();
+    for (int m = 0; m < triangle.nodes; ++m)
+      if (system.given.at[nodes[m]]) reactions += force.segment<2>(2 * m);
+  }
   const Eigen::Matrix2Xd loads = nodal_loads(*problem, p);
   for (Eigen::Index node = 0; node < loads.cols(); ++node)
     if (system.given.at[node]) reactions -= loads.col(node);

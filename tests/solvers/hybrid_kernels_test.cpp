@@ -8,7 +8,6 @@
 #include <random>
 
 #include "assembly/scene.hpp"
-#include "solvers/condensation/degree_element.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "tests/support/small_meshes.hpp"
 

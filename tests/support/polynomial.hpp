@@ -51,17 +51,17 @@ class Polynomial {
 };
 
 // The field of degree p with the values of u at its nodes' places: u itself, up to this degree.
-template <int p, typename Function>
-DisplacementField interpolated(const Problem& problem, const Function& u) {
-  using Triangle = DisplacementTriangle<p>;
-  Eigen::MatrixXd basis(Triangle::nodes, Triangle::nodes);  // B_m at the place of node n
-  const auto place = [](int node) -> Eigen::Vector3d {
-    const auto& [a, b, c] = Triangle::exponents[node];
+template <typename Function>
+DisplacementField interpolated(const Problem& problem, int p, const Function& u) {
+  const auto& triangle = DisplacementTriangle::of_degree(p);
+  Eigen::MatrixXd basis(triangle.nodes, triangle.nodes);  // B_m at the place of node n
+  const auto place = [&](int node) -> Eigen::Vector3d {
+    const auto& [a, b, c] = triangle.exponents[node];
     return Eigen::Vector3d(a, b, c) / p;
   };
-  for (int m = 0; m < Triangle::nodes; ++m)
-    for (int n = 0; n < Triangle::nodes; ++n) {
-      const auto& [a, b, c] = Triangle::exponents[m];
+  for (int m = 0; m < triangle.nodes; ++m)
+    for (int n = 0; n < triangle.nodes; ++n) {
+      const auto& [a, b, c] = triangle.exponents[m];
       const Eigen::Vector3d x = place(n);
       basis(m, n) = binomial(p, a) * binomial(p - a, b) * std::pow(x(0), a) * std::pow(x(1), b) *
                     std::pow(x(2), c);
@@ -69,12 +69,12 @@ DisplacementField interpolated(const Problem& problem, const Function& u) {
   const Eigen::MatrixXd to_coefficients = basis.inverse();
   DisplacementField field = DisplacementField::Zero(2, displacement_nodes(problem, p));
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    Eigen::Matrix<double, 2, Triangle::nodes> values;
-    for (int n = 0; n < Triangle::nodes; ++n)
+    Eigen::Matrix2Xd values(2, triangle.nodes);
+    for (int n = 0; n < triangle.nodes; ++n)
       values.col(n) = u(Eigen::Vector2d(problem.vertices_of(t) * place(n)));
-    const Eigen::Matrix<double, 2, Triangle::nodes> own = values * to_coefficients;
-    const auto nodes = triangle_nodes<p>(problem, t);
-    for (int m = 0; m < Triangle::nodes; ++m) field.col(nodes[m]) = own.col(m);
+    const Eigen::Matrix2Xd own = values * to_coefficients;
+    const auto nodes = triangle_nodes(problem, p, t);
+    for (int m = 0; m < triangle.nodes; ++m) field.col(nodes[m]) = own.col(m);
   }
   return field;
 }

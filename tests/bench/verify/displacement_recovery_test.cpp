@@ -113,11 +113,11 @@ TEST(RecoveredDisplacement, OfEveryDegreeItIsTheExactOne) {
             const auto problem = std::make_shared<const Problem>(
                 make_problem(mesh, {compliance({2000, nu}, Plane::strain)}, {}, 0));
             const DualSystem system = assemble(problem, Blocks::contact_points, k);
-            const DisplacementField exact = testing::interpolated<k + 1>(
-                *problem, testing::Polynomial(k + 1, 10, 5, /*held=*/true));
+            const DisplacementField exact = testing::interpolated(
+                *problem, k + 1, testing::Polynomial(k + 1, 10, 5, /*held=*/true));
             Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(2 * (k + 1), problem->edges.count());
             for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-              const auto u = of_triangle<k + 1>(*problem, exact, t);
+              const auto u = of_triangle(*problem, k + 1, exact, t);
               for (int e = 0; e < 3; ++e) {
                 const int edge = problem->edges.of_triangle[t][e];
                 const bool from_low = mesh.triangles[t][e] == problem->edges.vertices[edge][0];
@@ -125,7 +125,7 @@ TEST(RecoveredDisplacement, OfEveryDegreeItIsTheExactOne) {
                   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
                   for (int i = 0; i <= k + 1; ++i)
                     moment += edge_moment(k, j, k + 1, i) *
-                              u.col(DisplacementTriangle<k + 1>::on_edge(e, i));
+                              u.col(DisplacementTriangle::of_degree(k + 1).on_edge(e, i));
                   moments.col(edge).segment<2>(2 * (from_low ? j : k - j)) = moment;
                 }
               }
