@@ -50,6 +50,7 @@ OwnDisplacement::OwnDisplacement(int k) : triangle_(DisplacementTriangle::of_deg
   integral_.setZero(unknowns, 3 * n);
   for (Eigen::Index i = 0; i < rank; ++i) integral_.row(free[i]) = inverse.row(i);
   condition_ = Q.rightCols(3 * n - rank);
+  if (condition_.cols() == 0) return;
   for (int m = 0; m < 6; ++m) {
     const auto rows_of = [&](int component) {
       Eigen::MatrixXd rows(n, condition_.cols());
