@@ -8,12 +8,13 @@ PROJECT = Path(__file__).resolve().parents[2]
 FOLDER = PROJECT / ".github" / "workflows"
 NIGHTLY = (FOLDER / "nightly.yml").read_text(encoding="utf-8")
 CI = (FOLDER / "ci.yml").read_text(encoding="utf-8")
+CONTAINER = (FOLDER / "container.yml").read_text(encoding="utf-8")
 
 
 class WorkflowTest(unittest.TestCase):
     def test_actions_and_containers_have_a_digest(self) -> None:
-        self.assertEqual(sorted(file.name for file in FOLDER.iterdir()), ["ci.yml", "nightly.yml"])
-        actions = re.findall(r"uses: (.*)", NIGHTLY + CI)
+        self.assertEqual(sorted(file.name for file in FOLDER.iterdir()), ["ci.yml", "container.yml", "nightly.yml"])
+        actions = re.findall(r"uses: (.*)", NIGHTLY + CI + CONTAINER)
         self.assertGreater(len(actions), 5)
         for action in actions:
             self.assertRegex(action, r"^actions/[a-z-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+$")
@@ -21,6 +22,8 @@ class WorkflowTest(unittest.TestCase):
         self.assertEqual(len(images), 4)
         for image in images:
             self.assertRegex(image, r"^debian:1[23]@sha256:[0-9a-f]{64}  # ")
+        image = re.search(r"^ARG DEBIAN=(.*)", (PROJECT / "Dockerfile").read_text(encoding="utf-8"), re.M)[1]
+        self.assertIn(f"image: {image} ", CI)
 
     def test_every_push_runs_the_commands_of_the_readme(self) -> None:
         readme = (PROJECT / "README.md").read_text(encoding="utf-8")
@@ -30,7 +33,7 @@ class WorkflowTest(unittest.TestCase):
             self.assertIn(f"{command.strip()}\n", CI)
 
     def test_no_credentials_stay(self) -> None:
-        for text in (NIGHTLY, CI):
+        for text in (NIGHTLY, CI, CONTAINER):
             self.assertEqual(text.count("actions/checkout@"),
                              text.count("          persist-credentials: false\n"))
 
@@ -39,7 +42,7 @@ class WorkflowTest(unittest.TestCase):
         self.assertIn("if: ${{ !cancelled() }}", keep[:keep.index("with:")])
 
     def test_steps_are_bash(self) -> None:
-        for step in re.findall(r"run: \|\n((?: {10}.*\n|\n)+)", NIGHTLY + CI):
+        for step in re.findall(r"run: \|\n((?: {10}.*\n|\n)+)", NIGHTLY + CI + CONTAINER):
             checked = subprocess.run(["bash", "-n"], input=step, text=True, capture_output=True,
                                      check=False)
             self.assertEqual((checked.returncode, checked.stderr), (0, ""), step)
