@@ -104,11 +104,11 @@ std::vector<Eigen::Matrix3d> elasticities(const Problem& problem) {
 Eigen::Vector2d displacement_at(const Problem& problem, const DisplacementField& u, int triangle,
                                 const Eigen::Vector3d& lambda) {
   const int p = displacement_degree(problem, u);
-  const auto& of_degree = DisplacementTriangle::of_degree(p);
+  const auto& element = DisplacementTriangle::of_degree(p);
   const auto local = of_triangle(problem, p, u, triangle);
   Eigen::Vector2d value = Eigen::Vector2d::Zero();
-  for (int m = 0; m < of_degree.nodes; ++m) {
-    const auto& [a, b, c] = of_degree.exponents[m];
+  for (int m = 0; m < element.nodes; ++m) {
+    const auto& [a, b, c] = element.exponents[m];
     value += binomial(p, a) * binomial(p - a, b) * std::pow(lambda(0), a) * std::pow(lambda(1), b) *
              std::pow(lambda(2), c) * local.col(m);
   }
@@ -153,36 +153,36 @@ DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w)
 }
 
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {
-  const auto& of_degree = DisplacementTriangle::of_degree(displacement_degree(problem, u));
+  const auto& element = DisplacementTriangle::of_degree(displacement_degree(problem, u));
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
-  StressField field(problem.mesh.triangles.size(), of_degree.degree - 1);
+  StressField field(problem.mesh.triangles.size(), element.degree - 1);
   for (int t = 0; t < static_cast<int>(field.size()); ++t) {
     const DisplacementTriangle::Strain stress =
         elasticity[problem.mesh.triangle_body[t]].lazyProduct(
-            of_degree.strain(TriangleShape(problem.vertices_of(t)).gradients,
-                             of_triangle(problem, of_degree.degree, u, t)));
-    field[t] = stress.lazyProduct(of_degree.on_thirds);
+            element.strain(TriangleShape(problem.vertices_of(t)).gradients,
+                           of_triangle(problem, element.degree, u, t)));
+    field[t] = stress.lazyProduct(element.on_thirds);
   }
   return field;
 }
 
 NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
   const int p = stress.degree() + 1;
-  const auto& of_degree = DisplacementTriangle::of_degree(p);
-  const int n = of_degree.strains;
+  const auto& element = DisplacementTriangle::of_degree(p);
+  const int n = element.strains;
   Eigen::MatrixXd integral(3 * n, n);  // 3 ∫ σ B per area, from coefficients by thirds
   for (int t = 0; t < 3; ++t)
     integral.middleRows(n * t, n) =
-        of_degree.mass.lazyProduct(of_degree.on_thirds.middleCols(n * t, n).transpose());
+        element.mass.lazyProduct(element.on_thirds.middleCols(n * t, n).transpose());
   NodalForces forces{Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem, p))};
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleShape shape(problem.vertices_of(t));
     DisplacementTriangle::Strain dual = stress[t].lazyProduct(integral);
     dual *= shape.area_mm2 / 3;
-    const DisplacementTriangle::Displacement force = of_degree.forces(shape.gradients, dual);
+    const DisplacementTriangle::Displacement force = element.forces(shape.gradients, dual);
     forces.largest = std::max(forces.largest, force.cwiseAbs().maxCoeff());
     const auto nodes = triangle_nodes(problem, p, t);
-    for (int m = 0; m < of_degree.nodes; ++m) forces.sum.col(nodes[m]) += force.col(m);
+    for (int m = 0; m < element.nodes; ++m) forces.sum.col(nodes[m]) += force.col(m);
   }
   return forces;
 }

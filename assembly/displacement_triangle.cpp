@@ -70,13 +70,13 @@ DisplacementTriangle::DisplacementTriangle(int p)
   for (int i = 0; i < 3; ++i)
     products[i] = derivative[pairs[i][0]].transpose().lazyProduct(
         mass.lazyProduct(derivative[pairs[i][1]]).eval());
+  edge_moments.resize(p, p + 1);
+  for (int j = 0; j < p; ++j)
+    for (int i = 0; i <= p; ++i) edge_moments(j, i) = edge_moment(p - 1, j, p, i);
 }
 
 const DisplacementTriangle& DisplacementTriangle::of_degree(int p) {
-  return with_degree(p - 1, [](auto k) -> const DisplacementTriangle& {
-    static const DisplacementTriangle triangle(k + 1);
-    return triangle;
-  });
+  return made_once(p - 1, [](int k) { return DisplacementTriangle(k + 1); });
 }
 
 DisplacementTriangle::Strain DisplacementTriangle::strain(const Eigen::Matrix2d& gradients,
@@ -108,8 +108,9 @@ DisplacementTriangle::Displacement DisplacementTriangle::forces(const Eigen::Mat
   return f;
 }
 
-DisplacementTriangle::Stiffness DisplacementTriangle::stiffness(
-    const TriangleShape& shape, const Eigen::Matrix3d& elasticity) const {
+DisplacementTriangle::Stiffness DisplacementTriangle::stiffness(const TriangleShape& shape,
+                                                                const Eigen::Matrix3d& elasticity,
+                                                                int first, int count) const {
   std::array<Eigen::Matrix<double, 3, 2>, 2> strain_of;  // of a displacement along x, y
   for (int a = 0; a < 2; ++a) {
     const double x = shape.gradients(0, a), y = shape.gradients(1, a);
@@ -122,14 +123,16 @@ DisplacementTriangle::Stiffness DisplacementTriangle::stiffness(
   const Eigen::Matrix2d first_first = product(0, 0), second_second = product(1, 1),
                         first_second = product(0, 1);
   const auto& [D11, D22, D12] = products;
-  Stiffness K(2 * nodes, 2 * nodes);
-  for (int j = 0; j < nodes; ++j)
-    for (int i = 0; i < nodes; ++i)
+  Stiffness K(2 * count, 2 * count);
+  for (int j = 0; j < count; ++j)
+    for (int i = 0; i < count; ++i) {
+      const int m = first + i, n = first + j;
       for (int b = 0; b < 2; ++b)
         for (int a = 0; a < 2; ++a)
-          K(2 * i + a, 2 * j + b) = D11(i, j) * first_first(a, b) +
-                                    D22(i, j) * second_second(a, b) +
-                                    D12(i, j) * first_second(a, b) + D12(j, i) * first_second(b, a);
+          K(2 * i + a, 2 * j + b) = D11(m, n) * first_first(a, b) +
+                                    D22(m, n) * second_second(a, b) +
+                                    D12(m, n) * first_second(a, b) + D12(n, m) * first_second(b, a);
+    }
   return K;
 }
 

@@ -44,18 +44,20 @@ class DisplacementTriangle {
  public:
   static const DisplacementTriangle& of_degree(int p);  // made at the first call
 
-  static constexpr int highest_degree = highest_stress_degree + 1;
-  static constexpr int most_nodes = bernstein_count(highest_degree),
-                       most_strains = bernstein_count(highest_degree - 1);
-  using Nodes = boost::container::static_vector<int, most_nodes>;
+  static constexpr int max_degree = highest_stress_degree + 1;
+  static constexpr int max_nodes = bernstein_count(max_degree),
+                       max_strains = bernstein_count(max_degree - 1);
+  using Nodes = boost::container::static_vector<int, max_nodes>;
   using Displacement =  // coefficients, mm
-      Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, most_nodes>;
+      Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, max_nodes>;
   using Strain =  // coefficients; rows: xx, yy, 2xy
-      Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, most_strains>;
+      Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, max_strains>;
   using StrainByThirds =  // the same of the three thirds
-      Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3 * most_strains>;
+      Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3 * max_strains>;
   using Stiffness = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
-                                  2 * most_nodes, 2 * most_nodes>;
+                                  2 * max_nodes, 2 * max_nodes>;
+  using Vector =  // x and y of the nodes
+      Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 2 * max_nodes, 1>;
   using DisplacementRef = Eigen::Ref<const Eigen::Matrix2Xd>;
   using StressRef = Eigen::Ref<const Eigen::Matrix3Xd>;
 
@@ -67,6 +69,7 @@ class DisplacementTriangle {
   Eigen::MatrixXd mass;                     // ∫ B_β B_γ, per area
   Eigen::MatrixXd on_thirds;                // times it: coefficients by thirds
   std::array<Eigen::MatrixXd, 3> products;  // ∫ ∂_a B ∂_b B', per area: 11, 22, 12
+  Eigen::MatrixXd edge_moments;             // moment j, of degree k, of coefficient i on an edge
 
   // The nodes of edge e, V_e V_(e+1), as walked.
   int on_edge(int e, int i) const {
@@ -75,8 +78,12 @@ class DisplacementTriangle {
   Strain strain(const Eigen::Matrix2d& gradients, const DisplacementRef& u) const;
   // Its transpose: forces on the nodes, from rows xx, yy, xy.
   Displacement forces(const Eigen::Matrix2d& gradients, const StressRef& dual) const;
-  // K, N/mm: ∫ ε(B):A:ε(B'), 1 mm thick.
-  Stiffness stiffness(const TriangleShape& shape, const Eigen::Matrix3d& elasticity) const;
+  // K, N/mm: ∫ ε(B):A:ε(B'), 1 mm thick; rows and columns of `count` nodes from `first` on.
+  Stiffness stiffness(const TriangleShape& shape, const Eigen::Matrix3d& elasticity, int first,
+                      int count) const;
+  Stiffness stiffness(const TriangleShape& shape, const Eigen::Matrix3d& elasticity) const {
+    return stiffness(shape, elasticity, 0, nodes);
+  }
 
  private:
   explicit DisplacementTriangle(int p);

@@ -128,17 +128,15 @@ class EquilibriumElement {
 
  private:
   using Modes = std::array<Scalar, Degree::modes>;
-  static const ReferenceMatrices<Constant<Scalar>>& reference() {
-    static const auto& matrices = reference_matrices<Constant<Scalar>>(k);
-    return matrices;
-  }
   void factorise_root();
   void factorise_product(const Eigen::Matrix3<Scalar>& compliance_in_tau);
   void factorise_by_condition(const Eigen::Matrix3<Scalar>& compliance_in_tau);
   Modes modes_load(const Stress& particular) const;  // ∫ σ(modes) : C : σ_p
   Modes work_of(const OnEdges& displacement) const;  // Tᵀ ū
-  Stress of_modes(Modes work) const;                 // that of the modes S⁻¹ work
+  Modes excess_work(const OnEdges& displacement, const Stress& stress) const;  // their difference
+  Stress of_modes(Modes work) const;  // that of the modes S⁻¹ work
 
+  const ReferenceMatrices<Constant<Scalar>>& reference_;
   Eigen::Matrix2<Scalar> B_;
   Scalar determinant_;
   Eigen::Matrix3<Scalar> to_stress_;   // (xx, yy, xy) of τ̂ → σ

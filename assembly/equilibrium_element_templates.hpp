@@ -4,12 +4,9 @@
 #include <cmath>
 
 #include "assembly/equilibrium_element.hpp"
-#include "assembly/hct_templates.hpp"
 
 namespace airybench {
 namespace equilibrium_formulas {
-
-using hct_formulas::next;
 
 // (xx, yy, xy) of B τ Bᵀ / det B.
 template <typename Scalar>
@@ -41,7 +38,8 @@ template <typename Scalar, int k>
 EquilibriumElement<Scalar, k>::EquilibriumElement(const TriangleVerticesFor<Scalar>& vertices,
                                                   const Eigen::Matrix3<Data<Scalar>>& compliance,
                                                   Factor factor)
-    : compliance_(compliance.template cast<Scalar>()) {
+    : reference_(reference_matrices<Constant<Scalar>>(k)),
+      compliance_(compliance.template cast<Scalar>()) {
   for (int x = 0; x < 2; ++x)
     for (int i = 0; i < 2; ++i) B_(x, i) = Scalar(vertices(x, i + 1)) - Scalar(vertices(x, 0));
   determinant_ = B_(0, 0) * B_(1, 1) - B_(0, 1) * B_(1, 0);
@@ -88,7 +86,7 @@ void EquilibriumElement<Scalar, k>::factorise_root() {
   Eigen::Matrix<Scalar, 3 * rows, Degree::modes> M;
   for (int mode = 0; mode < Degree::modes; ++mode) {
     const Constant<Scalar>* weighted[3];
-    for (int c = 0; c < 3; ++c) weighted[c] = reference().weighted[c] + rows * mode;
+    for (int c = 0; c < 3; ++c) weighted[c] = reference_.weighted[c] + rows * mode;
     for (int a = 0; a < 3; ++a)
       for (int i = 0; i < rows; ++i)
         M(a * rows + i, mode) =
@@ -102,7 +100,7 @@ void EquilibriumElement<Scalar, k>::factorise_product(const Eigen::Matrix3<Scala
   Eigen::Matrix<Scalar, Degree::modes, Degree::modes> S;
   for (int j = 0; j < Degree::modes; ++j) {
     const Constant<Scalar>* M[6];
-    for (int m = 0; m < 6; ++m) M[m] = reference().flexibility[m] + Degree::modes * j;
+    for (int m = 0; m < 6; ++m) M[m] = reference_.flexibility[m] + Degree::modes * j;
     for (int i = j; i < Degree::modes; ++i)  // its lower triangle is read
       S(i, j) = c(0, 0) * M[0][i] + c(1, 1) * M[1][i] + c(2, 2) * M[2][i] + c(0, 1) * M[3][i] +
                 c(0, 2) * M[4][i] + c(1, 2) * M[5][i];
@@ -113,7 +111,7 @@ void EquilibriumElement<Scalar, k>::factorise_product(const Eigen::Matrix3<Scala
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Root EquilibriumElement<Scalar, k>::root() const {
   Root R;  // Tᵀ = T̂ᵀ (I ⊗ Bᵀ). The inner modes' rows are zero and stay so under L⁻¹.
-  const Constant<Scalar>* forces = reference().forces;
+  const Constant<Scalar>* forces = reference_.forces;
   for (int j = 0; j < Degree::size; j += 2, forces += 2 * Degree::outer)
     for (int i = 0; i < Degree::outer; ++i)
       for (int x = 0; x < 2; ++x)
@@ -156,7 +154,7 @@ typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::mod
   const Eigen::Matrix3<Scalar> dual =
       (to_stress_.transpose() * determinant_).lazyProduct(compliance_);
   Scalar orthonormal[3 * n], columns[3 * n], strain[3][n];
-  equilibrium_formulas::to_orthonormal(reference().mass_root, Degree::third, particular.data(),
+  equilibrium_formulas::to_orthonormal(reference_.mass_root, Degree::third, particular.data(),
                                        orthonormal);
   transform_columns(dual, orthonormal, n, columns);
   for (int i = 0; i < n; ++i)
@@ -165,7 +163,7 @@ typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::mod
   for (int mode = 0; mode < Degree::modes; ++mode) {
     load[mode] = 0;
     for (int a = 0; a < 3; ++a)
-      load[mode] += in_four_sums(reference().weighted[a] + n * mode, strain[a], 0, n);
+      load[mode] += in_four_sums(reference_.weighted[a] + n * mode, strain[a], 0, n);
   }
   return load;
 }
@@ -199,17 +197,23 @@ typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::wor
   for (Scalar& of_mode : work) of_mode = 0;
   add_multiples(
       &work[Degree::inner], Degree::outer, Degree::size, [&](int j) { return in_reference[j]; },
-      reference().forces, Degree::outer);
+      reference_.forces, Degree::outer);
+  return work;
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::excess_work(
+    const OnEdges& displacement, const Stress& stress) const {
+  Modes work = work_of(displacement);
+  const Modes known = modes_load(stress);
+  for (int m = 0; m < Degree::modes; ++m) work[m] -= known[m];
   return work;
 }
 
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::stress(
     const OnEdges& displacement, const Stress& particular) const {
-  Modes work = work_of(displacement);
-  const Modes known = modes_load(particular);
-  for (int m = 0; m < Degree::modes; ++m) work[m] -= known[m];
-  Stress total = of_modes(work);
+  Stress total = of_modes(excess_work(displacement, particular));
   for (int i = 0; i < 3 * Degree::coefficients; ++i) total.data()[i] += particular.data()[i];
   return total;
 }
@@ -217,16 +221,14 @@ typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::st
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Defect EquilibriumElement<Scalar, k>::defect(
     const OnEdges& displacement, const Stress& total) const {
-  Modes g = work_of(displacement);
-  const Modes made = modes_load(total);
-  for (int m = 0; m < Degree::modes; ++m) g[m] -= made[m];
+  const Modes g = excess_work(displacement, total);
   Modes correction = g;
   flexibility_.solve(correction.data());
   Defect result;
   result.energy = in_four_sums(g.data(), correction.data(), 0, Degree::modes);
   Scalar force[Degree::size];  // in x̂
   for (int j = 0; j < Degree::size; ++j)
-    force[j] = in_four_sums(reference().forces + Degree::outer * j, &correction[Degree::inner], 0,
+    force[j] = in_four_sums(reference_.forces + Degree::outer * j, &correction[Degree::inner], 0,
                             Degree::outer);
   for (int j = 0; j < Degree::size; j += 2)
     for (int x = 0; x < 2; ++x)
@@ -243,7 +245,7 @@ typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::of
   for (int a = 0; a < 3; ++a) {
     for (Scalar& coefficient : tau[a]) coefficient = 0;
     add_multiples(
-        tau[a], n, Degree::modes, [&](int m) { return work[m]; }, reference().stress[a], n);
+        tau[a], n, Degree::modes, [&](int m) { return work[m]; }, reference_.stress[a], n);
     for (int i = 0; i < n; ++i) columns[3 * i + a] = tau[a][i];
   }
   Stress stress;
@@ -277,8 +279,8 @@ template <typename Scalar, int k>
 Scalar EquilibriumElement<Scalar, k>::energy(const Stress& sigma, const Stress& tau) const {
   constexpr int n = 3 * Degree::coefficients;
   Scalar first[n], second[n], strain[n];
-  equilibrium_formulas::to_orthonormal(reference().mass_root, Degree::third, sigma.data(), first);
-  equilibrium_formulas::to_orthonormal(reference().mass_root, Degree::third, tau.data(), second);
+  equilibrium_formulas::to_orthonormal(reference_.mass_root, Degree::third, sigma.data(), first);
+  equilibrium_formulas::to_orthonormal(reference_.mass_root, Degree::third, tau.data(), second);
   transform_columns(compliance_, first, Degree::coefficients, strain);
   return determinant_ * in_four_sums(strain, second, 0, n);
 }
@@ -295,8 +297,7 @@ typename EquilibriumElement<Scalar, k>::Stress linear_stress(
       for (int c = 0; c <= k; ++c)
         for (int b = 0; b <= k - c; ++b)
           stress(a, StressDegree<k>::third * t + ring_place(k, b, c)) =
-              (Scalar(k - b - c) * at_vertices(a, t) +
-               Scalar(b) * at_vertices(a, equilibrium_formulas::next(t)) +
+              (Scalar(k - b - c) * at_vertices(a, t) + Scalar(b) * at_vertices(a, (t + 1) % 3) +
                Scalar(c) * at_centroid) /
               Scalar(k);
   }

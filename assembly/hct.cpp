@@ -1,4 +1,5 @@
 #include "assembly/hct_templates.hpp"
+#include "assembly/small_cholesky.hpp"
 
 namespace airybench {
 
@@ -7,21 +8,33 @@ std::array<int, 10> hct_third(int t) {
   return {i, j, 18, 3 + 2 * t, 4 + 2 * t, 9 + i, 9 + j, 12 + t, 15 + i, 15 + j};
 }
 
-template HctCoefficientsIn<double> hct_coefficients<double>(const TriangleVertices&,
-                                                            const EdgeSigns&);
-template HctStressIn<double> hct_stress<double>(const TriangleVertices&, const EdgeSigns&);
-template HctStressIn<double, 9> hct_stress<double, 9>(const TriangleVertices&, const EdgeSigns&);
-template Eigen::Matrix<double, 12, 12> hct_flexibility(const Eigen::Matrix<double, 27, 12>&, double,
-                                                       const Eigen::Matrix3d&);
-template Eigen::Matrix<double, 36, 9> hct_flexibility_root(const Eigen::Matrix<double, 27, 9>&,
-                                                           double, const Eigen::Matrix3d&);
-template HctCoefficientsIn<long double> hct_coefficients<long double>(const TriangleVertices&,
-                                                                      const EdgeSigns&);
-template HctStressIn<long double> hct_stress<long double>(const TriangleVertices&,
-                                                          const EdgeSigns&);
-template HctStressIn<long double, 9> hct_stress<long double, 9>(const TriangleVertices&,
-                                                                const EdgeSigns&);
-template Eigen::Matrix<long double, 36, 9> hct_flexibility_root(
-    const Eigen::Matrix<long double, 27, 9>&, long double, const Eigen::Matrix3d&);
+template HctCoefficients hct_coefficients<double>(const TriangleVertices&, const EdgeSigns&);
+template HctStress hct_stress<double>(const TriangleVertices&, const EdgeSigns&);
+
+Eigen::Matrix<double, 36, 12> hct_flexibility_root(const HctStress& stress, double area_mm2,
+                                                   const Eigen::Matrix3d& compliance) {
+  // With compliance = RᵀR, M stacks √(a/12) R σ for the sum and the three corner values of every
+  // third.
+  const SmallCholesky<double, 3> cholesky(compliance);
+  const Eigen::Matrix3d weight = cholesky.L().transpose() * std::sqrt(area_mm2 / 36);
+  Eigen::Matrix<double, 36, 12> m;
+  for (int t = 0; t < 3; ++t) {
+    for (int corner = 0; corner < 3; ++corner)
+      m.middleRows<3>(12 * t + 3 * corner) =
+          weight.lazyProduct(stress.middleRows<3>(9 * t + 3 * corner));
+    m.middleRows<3>(12 * t + 9) =
+        m.middleRows<3>(12 * t) + m.middleRows<3>(12 * t + 3) + m.middleRows<3>(12 * t + 6);
+  }
+  return m;
+}
+
+HctFlexibility hct_flexibility(const HctStress& stress, double area_mm2,
+                               const Eigen::Matrix3d& compliance) {
+  const Eigen::Matrix<double, 36, 12> m = hct_flexibility_root(stress, area_mm2, compliance);
+  HctFlexibility flexibility;
+  for (int j = 0; j < 12; ++j)
+    for (int i = 0; i <= j; ++i) flexibility(i, j) = flexibility(j, i) = m.col(i).dot(m.col(j));
+  return flexibility;
+}
 
 }  // namespace airybench

@@ -17,9 +17,9 @@
 // Clough & Tocher 1965; Bernadou & Hassan, Int. J. Numer. Methods Eng. 17 (1981), 784–789,
 // doi:10.1002/nme.1620170510; Lai & Schumaker, Spline Functions on Triangulations, ch. 6 (2007).
 //
-// Functions are templates over the scalar, by default double, instantiated for double and long
-// double (others: hct_templates.hpp). Coordinates are exact (exact_data.hpp); their differences are
-// formed first, in the scalar.
+// Functions that are templates over the scalar are instantiated for double (others:
+// hct_templates.hpp). Coordinates are exact (exact_data.hpp); their differences are formed first,
+// in the scalar.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,9 +35,7 @@ template <typename Scalar>
 using TriangleVerticesFor = Eigen::Matrix<Data<Scalar>, 2, 3>;
 using TriangleVertices = TriangleVerticesFor<double>;
 // +1: the edge's global normal is outward, −1: inward.
-template <typename Scalar>
-using EdgeSignsFor = std::array<Data<Scalar>, 3>;
-using EdgeSigns = EdgeSignsFor<double>;
+using EdgeSigns = std::array<double, 3>;
 
 // Rows: the 19 Bernstein coefficients; columns: the 12 degrees of freedom.
 //   0..2    at V_i                           12..14  inside third t
@@ -48,35 +46,30 @@ using HctCoefficientsIn = Eigen::Matrix<Scalar, 19, 12>;
 using HctCoefficients = HctCoefficientsIn<double>;
 template <typename Scalar = double>
 HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& v,
-                                           const EdgeSignsFor<Scalar>& outward);
+                                           const EdgeSigns& outward);
 
 // Rows of HctCoefficients that belong to third t, in the order
 // 300 030 003 210 120 201 021 111 102 012 of the barycentric exponents on V_t, V_{t+1}, V4.
 std::array<int, 10> hct_third(int t);
 
 // Rows: 3 corner + component, with corner = 3 t + (0: V_t, 1: V_{t+1}, 2: V4) and component xx, yy,
-// xy. Columns: all 12 degrees of freedom or the last ones. Times φ in N: stress in MPa.
-template <typename Scalar, int dofs = 12>
-using HctStressIn = Eigen::Matrix<Scalar, 27, dofs>;
+// xy. Columns: degrees of freedom. Times φ in N: stress in MPa.
+template <typename Scalar>
+using HctStressIn = Eigen::Matrix<Scalar, 27, 12>;
 using HctStress = HctStressIn<double>;
-template <typename Scalar = double, int dofs = 12>
-HctStressIn<Scalar, dofs> hct_stress(const TriangleVerticesFor<Scalar>& v,
-                                     const EdgeSignsFor<Scalar>& outward);
+template <typename Scalar = double>
+HctStressIn<Scalar> hct_stress(const TriangleVerticesFor<Scalar>& v, const EdgeSigns& outward);
 
-// ∫ σ(φ_i) : compliance : σ(φ_j) over the triangle, 1 mm thick, for the columns of `stress`.
+// ∫ σ(φ_i) : compliance : σ(φ_j) over the triangle, 1 mm thick.
 // compliance: 3×3 in (xx, yy, xy), see elasticity.hpp. Exact: on a third of area a with corner
 // values σ_m, ∫ = a/12 (Σσ_m : Σσ_m + Σ σ_m : σ_m). Symmetric, positive semidefinite; kernel:
 // affine φ.
 using HctFlexibility = Eigen::Matrix<double, 12, 12>;
-template <typename Scalar, int dofs>
-Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,
-                                                  std::type_identity_t<Scalar> area_mm2,
-                                                  const Eigen::Matrix3<Data<Scalar>>& compliance);
+HctFlexibility hct_flexibility(const HctStress& stress, double area_mm2,
+                               const Eigen::Matrix3d& compliance);
 
 // M with MᵀM = the flexibility.
-template <typename Scalar, int dofs>
-Eigen::Matrix<Scalar, 36, dofs> hct_flexibility_root(
-    const Eigen::Matrix<Scalar, 27, dofs>& stress, std::type_identity_t<Scalar> area_mm2,
-    const Eigen::Matrix3<Data<Scalar>>& compliance);
+Eigen::Matrix<double, 36, 12> hct_flexibility_root(const HctStress& stress, double area_mm2,
+                                                   const Eigen::Matrix3d& compliance);
 
 }  // namespace airybench

@@ -13,7 +13,7 @@ class HctAction {
  public:
   using Dofs = Eigen::Matrix<Scalar, 12, 1>;
 
-  HctAction(const TriangleVerticesFor<Scalar>& vertices, const EdgeSignsFor<Scalar>& outward) {
+  HctAction(const TriangleVerticesFor<Scalar>& vertices, const EdgeSigns& outward) {
     using namespace hct_formulas;
     const Corners<Scalar> v = at_origin<Scalar>(vertices);
     const Eigen::Vector2<Scalar> centroid = mean(v);

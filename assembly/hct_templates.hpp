@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "assembly/hct.hpp"
-#include "assembly/small_cholesky.hpp"
 
 namespace airybench {
 namespace hct_formulas {
@@ -62,7 +61,6 @@ Eigen::Vector3<Scalar> normal_direction(const Eigen::Vector2<Scalar>& i,
 
 // Place in hct_third() of the coefficient with exponents e_m + e_p + e_q, for corner m and
 //   (p, q) = (0,0) (1,1) (2,2) (0,1) (0,2) (1,2).
-// Internal linkage: kernels of several instruction sets share no symbol.
 constexpr int near_corner[3][6] = {{0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};
 
 // Stress at corner m of a third from those six: second derivatives are
@@ -106,7 +104,7 @@ void complete_coefficients(const std::array<Eigen::Vector3<Scalar>, 3>& alpha, A
 
 template <typename Scalar>
 HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& vertices,
-                                           const EdgeSignsFor<Scalar>& outward) {
+                                           const EdgeSigns& outward) {
   using namespace hct_formulas;
   using Vector = Eigen::Vector2<Scalar>;
   const Scalar three = 3;
@@ -132,58 +130,25 @@ HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& ve
   return c;
 }
 
-template <typename Scalar, int dofs>
-HctStressIn<Scalar, dofs> hct_stress(const TriangleVerticesFor<Scalar>& vertices,
-                                     const EdgeSignsFor<Scalar>& outward) {
+template <typename Scalar>
+HctStressIn<Scalar> hct_stress(const TriangleVerticesFor<Scalar>& vertices,
+                               const EdgeSigns& outward) {
   using namespace hct_formulas;
   const Corners<Scalar> v = at_origin<Scalar>(vertices);
   const HctCoefficientsIn<Scalar> c = hct_coefficients<Scalar>(vertices, outward);
   const Eigen::Vector2<Scalar> centroid = mean(v);
-  HctStressIn<Scalar, dofs> stress;
+  HctStressIn<Scalar> stress;
   for (int t = 0; t < 3; ++t) {
     const Eigen::Matrix<Scalar, 3, 6> weights =
         stress_weights<Scalar>(barycentric_gradients<Scalar>(v.col(t), v.col(next(t)), centroid));
     const std::array<int, 10> third = hct_third(t);
     for (int m = 0; m < 3; ++m) {
-      Eigen::Matrix<Scalar, 6, dofs> near;
-      for (int k = 0; k < 6; ++k)
-        near.row(k) = c.row(third[near_corner[m][k]]).template tail<dofs>();
+      Eigen::Matrix<Scalar, 6, 12> near;
+      for (int k = 0; k < 6; ++k) near.row(k) = c.row(third[near_corner[m][k]]);
       stress.template middleRows<3>(3 * (3 * t + m)) = weights.lazyProduct(near);
     }
   }
   return stress;
-}
-
-template <typename Scalar, int dofs>
-Eigen::Matrix<Scalar, 36, dofs> hct_flexibility_root(
-    const Eigen::Matrix<Scalar, 27, dofs>& stress, std::type_identity_t<Scalar> area_mm2,
-    const Eigen::Matrix3<Data<Scalar>>& compliance) {
-  using std::sqrt;
-  // With compliance = RᵀR, M stacks √(a/12) R σ for the sum and the three corner values of every
-  // third.
-  const SmallCholesky<Scalar, 3> cholesky(compliance.template cast<Scalar>());
-  const Eigen::Matrix3<Scalar> weight = cholesky.L().transpose() * sqrt(area_mm2 / Scalar(36));
-  Eigen::Matrix<Scalar, 36, dofs> m;
-  for (int t = 0; t < 3; ++t) {
-    for (int corner = 0; corner < 3; ++corner)
-      m.template middleRows<3>(12 * t + 3 * corner) =
-          weight.lazyProduct(stress.template middleRows<3>(9 * t + 3 * corner));
-    m.template middleRows<3>(12 * t + 9) = m.template middleRows<3>(12 * t) +
-                                           m.template middleRows<3>(12 * t + 3) +
-                                           m.template middleRows<3>(12 * t + 6);
-  }
-  return m;
-}
-
-template <typename Scalar, int dofs>
-Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,
-                                                  std::type_identity_t<Scalar> area_mm2,
-                                                  const Eigen::Matrix3<Data<Scalar>>& compliance) {
-  const Eigen::Matrix<Scalar, 36, dofs> m = hct_flexibility_root(stress, area_mm2, compliance);
-  Eigen::Matrix<Scalar, dofs, dofs> flexibility;
-  for (int j = 0; j < dofs; ++j)
-    for (int i = 0; i <= j; ++i) flexibility(i, j) = flexibility(j, i) = m.col(i).dot(m.col(j));
-  return flexibility;
 }
 
 }  // namespace airybench

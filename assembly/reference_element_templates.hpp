@@ -172,10 +172,9 @@ struct Rounded {
 
 template <typename Scalar, typename Wide>
 const ReferenceMatrices<Scalar>& rounded(int k) {
-  return with_degree(k, [](auto degree) -> const ReferenceMatrices<Scalar>& {
-    static const Rounded<Scalar, Wide> entries{ReferenceElement<Wide>(degree)};
-    return entries.matrices;
-  });
+  return made_once(k,
+                   [](int degree) { return Rounded<Scalar, Wide>(ReferenceElement<Wide>(degree)); })
+      .matrices;
 }
 
 }  // namespace reference_formulas

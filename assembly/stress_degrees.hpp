@@ -27,4 +27,14 @@ decltype(auto) with_degree(int k, Run run) {
                               std::to_string(highest_stress_degree) + ")");
 }
 
+// make(k), made at the first call with this k. `make` has no state.
+template <typename Make>
+const auto& made_once(int k, Make make) {
+  using Value = std::invoke_result_t<Make, int>;
+  return with_degree(k, [&](auto degree) -> const Value& {
+    static const Value value = make(degree);
+    return value;
+  });
+}
+
 }  // namespace airybench

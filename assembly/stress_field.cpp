@@ -1,10 +1,53 @@
-#include "assembly/stress_field_templates.hpp"
+#include "assembly/stress_field.hpp"
 
 #include <cmath>
 
+#include "assembly/edge_forces.hpp"
 #include "assembly/stress_degrees.hpp"
 
 namespace airybench {
+
+template <typename Scalar>
+ElementStressIn<Scalar> particular_element_stress(const Problem& problem, int triangle) {
+  const Eigen::Matrix<Scalar, 2, 3> v = problem.vertices_of(triangle).cast<Scalar>();
+  const Eigen::Vector3<Scalar> centre =
+      problem.particular_stress<Scalar>((v.col(0) + v.col(1) + v.col(2)) / Scalar(3));
+  ElementStressIn<Scalar> stress;
+  for (int t = 0; t < 3; ++t)
+    stress.template middleCols<3>(3 * t) << problem.particular_stress<Scalar>(v.col(t)),
+        problem.particular_stress<Scalar>(v.col((t + 1) % 3)), centre;
+  return stress;
+}
+
+template <typename Scalar>
+void subtract_affine_part(const TriangleVertices& v, const EdgeSigns& outward,
+                          Eigen::Matrix<Scalar, 12, 1>& local) {
+  const Eigen::Vector2<Scalar> slope =
+      (local.template segment<2>(1) + local.template segment<2>(4) + local.template segment<2>(7)) /
+      3;
+  const Scalar value = (local(0) + local(3) + local(6)) / 3;
+  const Eigen::Matrix<Scalar, 2, 3> corners = v.cast<Scalar>();
+  const Eigen::Vector2<Scalar> centroid = corners.rowwise().mean();
+  for (int k = 0; k < 3; ++k) {
+    local(3 * k) -= value + slope.dot(corners.col(k) - centroid);
+    local.template segment<2>(3 * k + 1) -= slope;
+    local(9 + k) -= outward[k] * slope.dot(edge_frame<Scalar>(v.col(k), v.col((k + 1) % 3)).normal);
+  }
+}
+
+template <typename Scalar>
+ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
+                                    std::type_identity_t<Scalar> area_mm2,
+                                    const Eigen::Matrix3<Data<Scalar>>& compliance) {
+  // On a third of area a: ∫ λ_m λ_n = a (1 + δ_mn) / 12.
+  const Eigen::Matrix3<Scalar> weight = area_mm2 / Scalar(36) * compliance.template cast<Scalar>();
+  ElementStressIn<Scalar> dual;
+  for (int t = 0; t < 3; ++t) {
+    const Eigen::Matrix3<Scalar> corners = stress.template middleCols<3>(3 * t);
+    dual.template middleCols<3>(3 * t) = weight * (corners.colwise() + corners.rowwise().sum());
+  }
+  return dual;
+}
 
 StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorXd& phi) {
   const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
@@ -82,8 +125,6 @@ ForcesOnEdge element_edge_forces(const TriangleVertices& v,
 template ElementStressIn<double> particular_element_stress(const Problem&, int);
 template ElementStressIn<double> stress_dual(const ElementStressIn<double>&, double,
                                              const Eigen::Matrix3d&);
-template Eigen::Matrix2<double> element_edge_forces(const TriangleVertices&,
-                                                    const ElementStressIn<double>&, int);
 template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
                                    Eigen::Matrix<double, 12, 1>&);
 template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
@@ -91,7 +132,5 @@ template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
 template ElementStressIn<long double> particular_element_stress(const Problem&, int);
 template ElementStressIn<long double> stress_dual(const ElementStressIn<long double>&, long double,
                                                   const Eigen::Matrix3d&);
-template Eigen::Matrix2<long double> element_edge_forces(const TriangleVertices&,
-                                                         const ElementStressIn<long double>&, int);
 
 }  // namespace airybench

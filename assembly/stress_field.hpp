@@ -83,13 +83,8 @@ double stress_norm_squared(const Problem& problem, const StressField& stress);
 // √∫(σ−τ):C:(σ−τ) in √(N mm), of fields of one degree.
 double stress_distance(const Problem& problem, const StressField& stress, const StressField& other);
 
-// Generalised forces (edge_forces.hpp) on edge k for the outward normal, N. Columns: start and end
-// in the element's walk; rows: x, y.
-template <typename Scalar>
-Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVerticesFor<Scalar>& v,
-                                           const Eigen::Matrix<Scalar, 3, 9>& stress, int k);
-// The same for a triangle of a StressField of any degree; columns: the control values' forces F_j
-// (equilibrium_element.hpp).
+// Forces on edge k for the outward normal, N, of a triangle of a StressField. Columns: the control
+// values' forces F_j (equilibrium_element.hpp) in the element's walk; rows: x, y.
 using ForcesOnEdge = EdgeMoments;
 ForcesOnEdge element_edge_forces(const TriangleVertices& v,
                                  const Eigen::Ref<const Eigen::Matrix3Xd>& stress, int k);

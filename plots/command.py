@@ -29,13 +29,23 @@ def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
     parser.error = fail
     add_arguments(parser)
     try:
-        act(parser.parse_args())
+        arguments, unknown = parser.parse_known_args()
+        if unknown:
+            fail(f"unknown '{' '.join(unknown)}' (valid: {', '.join(valid_arguments(parser))})")
+        act(arguments)
     except RecordsError as error:
         fail(error)
     except OSError as error:
         fail(f"{error.filename or 'standard output'}: {error.strerror}; expected {expected}")
     except MemoryError:
         fail("out of memory")
+
+
+def valid_arguments(parser: argparse.ArgumentParser) -> list[str]:
+    """Options as typed; of the others what they are: their help up to a semicolon, or their name."""
+    shown = [action for action in parser._actions if action.help != argparse.SUPPRESS and action.dest != "help"]
+    return [f"{action.option_strings[0]}{f'={action.metavar}' * (action.nargs != 0)}" if action.option_strings
+            else (action.help or str(action.metavar)).split(";")[0] for action in shown]
 
 
 def results_and_out(parser: argparse.ArgumentParser) -> None:

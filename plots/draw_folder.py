@@ -12,7 +12,7 @@ from records import RecordsError, is_without_body, read_lines
 RECORDS = ("records.jsonl", "records.jsonl.gz", "results.csv")
 
 
-def programs_of(folder: Path, only: str | None, animate: bool) -> list[str]:
+def drawing_programs(folder: Path, only: str | None, animate: bool) -> list[str]:
     """With `only` records alone are drawn. Throws RecordsError."""
     if animate and only:
         raise RecordsError("--animate: not together with --only, which draws no fields")
@@ -41,7 +41,7 @@ def show_life(folder: Path, done: threading.Event) -> None:
 
 def draw(args: argparse.Namespace) -> None:
     status, done = 0, threading.Event()
-    programs = programs_of(args.results, args.only, args.animate)
+    programs = drawing_programs(args.results, args.only, args.animate)
     threading.Thread(target=show_life, args=(args.results, done), daemon=True).start()
     for program in programs:
         options = ["--vector"] * args.vector
@@ -60,11 +60,11 @@ def draw(args: argparse.Namespace) -> None:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("results", type=Path, nargs="?", default=Path("results/latest"), metavar="RESULTS_DIR",
-                        help="the --out of bench; default: results/latest")
+                        help="a results folder; default: results/latest")
     parser.add_argument("--only", metavar="GLOB,...", help="of its records these figures and tables")
     parser.add_argument("--animate", action="store_true", help="also a .gif of every path of load steps")
     parser.add_argument("--vector", action="store_true", help="each figure also as .svg and .pdf")
-    parser.add_argument("--quiet", action="store_true", help="say only where they are")
+    parser.add_argument("--quiet", action="store_true", help=argparse.SUPPRESS)  # after bench
 
 
 def main() -> None:

@@ -165,19 +165,19 @@ double strain_energy(const Eigen::Ref<const Eigen::Matrix3Xd>& stress, double ar
 // Adds the energies of the body: ½ ∫ of σ, of Aε(u), and twice that of their difference.
 void add_body(const Problem& problem, Fields& fields, ConstitutiveError& error) {
   const auto& [stress, F_C, u, energy, energy_of_u] = fields;
-  const auto& of_degree = DisplacementTriangle::of_degree(stress.degree() + 1);
+  const auto& element = DisplacementTriangle::of_degree(stress.degree() + 1);
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   error.of_triangle_Nmm.resize(stress.size());
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleShape shape(problem.vertices_of(t));
     const DisplacementTriangle::Strain other =
         elasticity[problem.mesh.triangle_body[t]].lazyProduct(
-            of_degree.strain(shape.gradients, of_triangle(problem, of_degree.degree, u, t)));
+            element.strain(shape.gradients, of_triangle(problem, element.degree, u, t)));
     const DisplacementTriangle::StrainByThirds own = stress[t],
                                                difference =
-                                                   own - other.lazyProduct(of_degree.on_thirds);
+                                                   own - other.lazyProduct(element.on_thirds);
     const auto energy_of = [&](const auto& s) {
-      return strain_energy(s, shape.area_mm2, problem.compliance_of(t), of_degree.mass);
+      return strain_energy(s, shape.area_mm2, problem.compliance_of(t), element.mass);
     };
     error.of_triangle_Nmm[t] = 2 * energy_of(difference);
     fields.energy += energy_of(own);

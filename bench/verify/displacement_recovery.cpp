@@ -17,9 +17,9 @@ namespace {
 using Triangle = DisplacementTriangle;
 
 // Adds to w the rigid motion that fits its edge moments to the given ones (least squares).
-void set_rigid_motion(const Problem& problem, const Triangle& of_degree, int triangle,
+void set_rigid_motion(const Problem& problem, const Triangle& element, int triangle,
                       const Eigen::MatrixXd& edge_moments, Triangle::Displacement& w) {
-  const int p = of_degree.degree, k = p - 1;
+  const int p = element.degree, k = p - 1;
   const TriangleVertices v = problem.vertices_of(triangle);
   const Eigen::Matrix<double, 2, 3> corner = v.colwise() - v.rowwise().mean();
   const auto& corners = problem.mesh.triangles[triangle];
@@ -32,7 +32,7 @@ void set_rigid_motion(const Problem& problem, const Triangle& of_degree, int tri
     for (int j = 0; j <= k; ++j) {
       Eigen::Vector2d missing = given.segment<2>(2 * (from_low ? j : k - j));
       for (int i = 0; i <= p; ++i)
-        missing -= edge_moment(k, j, p, i) * w.col(of_degree.on_edge(e, i));
+        missing -= element.edge_moments(j, i) * w.col(element.on_edge(e, i));
       const Eigen::Vector2d arm =
           ((k + 1 - j) * corner.col(e) + (j + 1) * corner.col(next)) / (k + 2);
       translation += missing / (3 * (k + 1));
@@ -41,39 +41,39 @@ void set_rigid_motion(const Problem& problem, const Triangle& of_degree, int tri
     }
   }
   const double rotation = turned / spread;
-  for (int m = 0; m < of_degree.nodes; ++m) {
-    const auto& [a, b, c] = of_degree.exponents[m];
+  for (int m = 0; m < element.nodes; ++m) {
+    const auto& [a, b, c] = element.exponents[m];
     const Eigen::Vector2d x = (a * corner.col(0) + b * corner.col(1) + c * corner.col(2)) / p;
     w.col(m) += translation + rotation * Eigen::Vector2d(-x.y(), x.x());
   }
 }
 
 // Diagonal of the triangle's stiffness per node, the mean of x and y.
-std::array<double, Triangle::most_nodes> stiffnesses(const Triangle& of_degree,
-                                                     const TriangleShape& shape,
-                                                     const Eigen::Matrix3d& c) {
+std::array<double, Triangle::max_nodes> stiffnesses(const Triangle& element,
+                                                    const TriangleShape& shape,
+                                                    const Eigen::Matrix3d& c) {
   const double along = c(0, 0) / (c(0, 0) * c(0, 0) - c(0, 1) * c(0, 1)), shear = 1 / c(2, 2);
   const auto &g = shape.gradients.col(0), &h = shape.gradients.col(1);
   const double gg = g.squaredNorm(), hh = h.squaredNorm(), gh = 2 * g.dot(h);
-  const auto& [D11, D22, D12] = of_degree.products;
-  std::array<double, Triangle::most_nodes> stiffness{};
-  for (int m = 0; m < of_degree.nodes; ++m)
+  const auto& [D11, D22, D12] = element.products;
+  std::array<double, Triangle::max_nodes> stiffness{};
+  for (int m = 0; m < element.nodes; ++m)
     stiffness[m] =
         shape.area_mm2 * (along + shear) / 2 * (gg * D11(m, m) + hh * D22(m, m) + gh * D12(m, m));
   return stiffness;
 }
 
 // Half the gradient of a triangle's ‖σ − Aε(w)‖², N: K_e (w − w_e) with its displacement w_e.
-Triangle::Displacement half_gradient(const Triangle& of_degree, const TriangleShape& shape,
+Triangle::Displacement half_gradient(const Triangle& element, const TriangleShape& shape,
                                      const Eigen::Matrix3d& elasticity,
                                      const Triangle::DisplacementRef& own,
                                      const DisplacementField& w, const Triangle::Nodes& nodes) {
-  Triangle::Displacement difference(2, of_degree.nodes);
-  for (int m = 0; m < of_degree.nodes; ++m) difference.col(m) = w.col(nodes[m]) - own.col(m);
+  Triangle::Displacement difference(2, element.nodes);
+  for (int m = 0; m < element.nodes; ++m) difference.col(m) = w.col(nodes[m]) - own.col(m);
   const Triangle::Strain weighted =
-      of_degree.strain(shape.gradients, difference).lazyProduct(of_degree.mass);
+      element.strain(shape.gradients, difference).lazyProduct(element.mass);
   const Eigen::Matrix3d stiffness = shape.area_mm2 * elasticity;
-  return of_degree.forces(shape.gradients, stiffness.lazyProduct(weighted).eval());
+  return element.forces(shape.gradients, stiffness.lazyProduct(weighted).eval());
 }
 
 // Calls visit(triangle, shape, elasticity, nodes) for all triangles.
@@ -86,20 +86,18 @@ void for_triangles(const Problem& problem, int degree, Visit visit) {
 }
 
 // Sets the inner coefficients to those that minimise ‖σ − Aε(w)‖ for the others: K_ii d = −f_i.
-void set_inner(const Problem& problem, const Triangle& of_degree, const Eigen::Matrix2Xd& own,
+void set_inner(const Problem& problem, const Triangle& element, const Eigen::Matrix2Xd& own,
                DisplacementField& w) {
-  const int inner = of_degree.inner, outer = of_degree.outer;
+  const int inner = element.inner, outer = element.outer;
   if (inner == 0) return;
   for_triangles(
-      problem, of_degree.degree,
+      problem, element.degree,
       [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
           const Triangle::Nodes& nodes) {
-        const auto of_triangle = own.middleCols(of_degree.nodes * t, of_degree.nodes);
+        const auto of_triangle = own.middleCols(element.nodes * t, element.nodes);
         Eigen::MatrixXd step =
-            half_gradient(of_degree, shape, A, of_triangle, w, nodes).rightCols(inner).reshaped();
-        const Eigen::MatrixXd K =
-            of_degree.stiffness(shape, A).bottomRightCorner(2 * inner, 2 * inner);
-        if (!solve_positive_definite(K, step)) return;
+            half_gradient(element, shape, A, of_triangle, w, nodes).rightCols(inner).reshaped();
+        if (!solve_positive_definite(element.stiffness(shape, A, outer, inner), step)) return;
         for (int m = 0; m < inner; ++m)
           w.col(nodes[outer + m]) -= Eigen::Vector2d(step(2 * m), step(2 * m + 1));
       });
@@ -132,23 +130,23 @@ class Recovery {
   Recovery(const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
            const Eigen::MatrixXd& edge_moments)
       : problem_(*system.problem),
-        of_degree_(Triangle::of_degree(stress.degree() + 1)),
-        own_(2, of_degree_.nodes * static_cast<Eigen::Index>(stress.size())),
+        element_(Triangle::of_degree(stress.degree() + 1)),
+        own_(2, element_.nodes * static_cast<Eigen::Index>(stress.size())),
         constraints_(system, stress.degree(), F_C),
         stress_(stress) {
-    const OwnDisplacement own_displacement(stress.degree());
-    const int nodes = displacement_nodes(problem_, of_degree_.degree);
+    const OwnDisplacement& own_displacement = OwnDisplacement::of_degree(stress.degree());
+    const int nodes = displacement_nodes(problem_, element_.degree);
     w_ = DisplacementField::Zero(2, nodes);
     stiffness_ = Eigen::VectorXd::Zero(nodes);
     for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
       const TriangleShape shape(problem_.vertices_of(t));
       const Eigen::Matrix3d& compliance = problem_.compliance_of(t);
       Triangle::Displacement own = own_displacement(shape, compliance, stress[t]);
-      set_rigid_motion(problem_, of_degree_, t, edge_moments, own);
-      own_.middleCols(of_degree_.nodes * t, of_degree_.nodes) = own;
-      const auto weight = stiffnesses(of_degree_, shape, compliance);
-      const auto node = triangle_nodes(problem_, of_degree_.degree, t);
-      for (int m = 0; m < of_degree_.nodes; ++m) {
+      set_rigid_motion(problem_, element_, t, edge_moments, own);
+      own_.middleCols(element_.nodes * t, element_.nodes) = own;
+      const auto weight = stiffnesses(element_, shape, compliance);
+      const auto node = triangle_nodes(problem_, element_.degree, t);
+      for (int m = 0; m < element_.nodes; ++m) {
         w_.col(node[m]) += weight[m] * own.col(m);
         stiffness_(node[m]) += weight[m];
       }
@@ -162,11 +160,11 @@ class Recovery {
     w_ = step().w;
     if (need_vertex_stars(problem_)) {
       const std::vector<bool> held = constraints_.nodes();
-      VertexStars stars(problem_, of_degree_, own_, held);
+      VertexStars stars(problem_, element_, own_, held);
       for (int sweep = 0; sweep < 2; ++sweep) stars.sweep(w_);
     }
     improve_where_needed();
-    set_inner(problem_, of_degree_, own_, w_);
+    set_inner(problem_, element_, own_, w_);
     return std::move(w_);
   }
 
@@ -175,21 +173,21 @@ class Recovery {
     JacobiStep result;
     result.gradient = Eigen::Matrix2Xd::Zero(2, w_.cols());
     result.gain_Nmm = Eigen::VectorXd::Zero(w_.cols());
-    for_triangles(problem_, of_degree_.degree,
+    for_triangles(problem_, element_.degree,
                   [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
                       const Triangle::Nodes& nodes) {
-                    const auto own = own_.middleCols(of_degree_.nodes * t, of_degree_.nodes);
+                    const auto own = own_.middleCols(element_.nodes * t, element_.nodes);
                     const Triangle::Displacement force =
-                        half_gradient(of_degree_, shape, A, own, w_, nodes);
+                        half_gradient(element_, shape, A, own, w_, nodes);
                     double distance = 0;
-                    for (int m = 0; m < of_degree_.nodes; ++m) {
+                    for (int m = 0; m < element_.nodes; ++m) {
                       result.gradient.col(nodes[m]) += force.col(m);
                       distance += force.col(m).dot(w_.col(nodes[m]) - own.col(m)) / 2;
                     }
                     result.distance_Nmm += distance;
                     if (is_stiff(shape, problem_.compliance_of(t)))
                       for (const int node : nodes)
-                        result.gain_Nmm(node) += distance / of_degree_.nodes;
+                        result.gain_Nmm(node) += distance / element_.nodes;
                   });
     result.w = w_.array() - result.gradient.array().rowwise() / stiffness_.transpose().array();
     constraints_.apply(stiffness_, result.w);
@@ -231,19 +229,18 @@ class Recovery {
       is_free[node] = (sum += next.gain_Nmm(node)) > hardly_anything * next.distance_Nmm;
     for (int ring = 0; ring < rings; ++ring) is_free = with_neighbours(is_free);
     std::vector<ZoneTriangle> zone;
-    for_triangles(
-        problem_, of_degree_.degree,
-        [&](int, const TriangleShape& shape, const Eigen::Matrix3d& A,
-            const Triangle::Nodes& nodes) {
-          if (std::ranges::any_of(nodes, [&](int node) { return is_free[node]; }))
-            zone.push_back({{nodes.begin(), nodes.end()}, of_degree_.stiffness(shape, A)});
-        });
+    for_triangles(problem_, element_.degree,
+                  [&](int, const TriangleShape& shape, const Eigen::Matrix3d& A,
+                      const Triangle::Nodes& nodes) {
+                    if (std::ranges::any_of(nodes, [&](int node) { return is_free[node]; }))
+                      zone.push_back({{nodes.begin(), nodes.end()}, element_.stiffness(shape, A)});
+                  });
     improve_zone(constraints_, zone, std::move(is_free), next.gradient, w_);
   }
   std::vector<bool> with_neighbours(const std::vector<bool>& chosen) const {
     std::vector<bool> wider = chosen;
     for (int t = 0; t < static_cast<int>(problem_.mesh.triangles.size()); ++t) {
-      const auto nodes = triangle_nodes(problem_, of_degree_.degree, t);
+      const auto nodes = triangle_nodes(problem_, element_.degree, t);
       if (std::ranges::any_of(nodes, [&](int node) { return chosen[node]; }))
         for (const int node : nodes) wider[node] = true;
     }
@@ -254,7 +251,7 @@ class Recovery {
   }
 
   const Problem& problem_;
-  const Triangle& of_degree_;
+  const Triangle& element_;
   Eigen::Matrix2Xd own_;  // one triangle after another: w_T
   DisplacementConstraints constraints_;
   const StressField& stress_;
@@ -273,15 +270,15 @@ DisplacementField recovered_displacement(const DualSystem& system, const StressF
 DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
                                           DisplacementField w) {
   const Problem& problem = *system.problem;
-  const auto& of_degree = Triangle::of_degree(displacement_degree(problem, w));
+  const auto& element = Triangle::of_degree(displacement_degree(problem, w));
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(w.cols());
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const auto weight =
-        stiffnesses(of_degree, TriangleShape(problem.vertices_of(t)), problem.compliance_of(t));
-    const auto node = triangle_nodes(problem, of_degree.degree, t);
+        stiffnesses(element, TriangleShape(problem.vertices_of(t)), problem.compliance_of(t));
+    const auto node = triangle_nodes(problem, element.degree, t);
     for (std::size_t m = 0; m < node.size(); ++m) stiffness(node[m]) += weight[m];
   }
-  DisplacementConstraints(system, of_degree.degree - 1, F_C).apply(stiffness, w);
+  DisplacementConstraints(system, element.degree - 1, F_C).apply(stiffness, w);
   return w;
 }
 

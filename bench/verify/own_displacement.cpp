@@ -20,6 +20,10 @@ Eigen::Matrix3d to_coordinates(const Eigen::Matrix2d& B) {
 
 }  // namespace
 
+const OwnDisplacement& OwnDisplacement::of_degree(int k) {
+  return made_once(k, [](int degree) { return OwnDisplacement(degree); });
+}
+
 OwnDisplacement::OwnDisplacement(int k) : triangle_(DisplacementTriangle::of_degree(k + 1)) {
   const Eigen::Index n = triangle_.strains, unknowns = 2 * triangle_.nodes;
   // Of all displacements on the reference triangle; rows and columns as `reshaped()`.

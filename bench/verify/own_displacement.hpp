@@ -18,13 +18,15 @@ namespace airybench {
 
 class OwnDisplacement {
  public:
-  explicit OwnDisplacement(int k);
+  static const OwnDisplacement& of_degree(int k);  // of σ; made at the first call
   // stress: coefficients by thirds, MPa.
   DisplacementTriangle::Displacement operator()(
       const TriangleShape& shape, const Eigen::Matrix3d& compliance,
       const DisplacementTriangle::StressRef& stress) const;
 
  private:
+  explicit OwnDisplacement(int k);
+
   const DisplacementTriangle& triangle_;
   Eigen::MatrixXd projection_;              // Π, of coefficients by thirds
   Eigen::MatrixXd integral_;                // ε̂ → û

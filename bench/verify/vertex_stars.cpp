@@ -14,10 +14,10 @@ bool need_vertex_stars(const Problem& problem) {
                              [](const Eigen::Matrix3d& c) { return bulk_over_shear(c) > most; });
 }
 
-VertexStars::VertexStars(const Problem& problem, const DisplacementTriangle& of_degree,
+VertexStars::VertexStars(const Problem& problem, const DisplacementTriangle& element,
                          const Eigen::Matrix2Xd& own, const std::vector<bool>& held)
     : problem_(problem),
-      of_degree_(of_degree),
+      element_(element),
       own_(own),
       held_(held),
       order_(problem.mesh.vertices.size()),
@@ -31,11 +31,11 @@ VertexStars::VertexStars(const Problem& problem, const DisplacementTriangle& of_
   });
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   const int triangles = static_cast<int>(problem.mesh.triangles.size());
-  const int outer = 2 * of_degree.outer, inner = 2 * of_degree.inner;
+  const int outer = 2 * element.outer, inner = 2 * element.inner;
   K_.reserve(problem.mesh.triangles.size());
   for (int t = 0; t < triangles; ++t) {
-    const auto K = of_degree.stiffness(TriangleShape(problem.vertices_of(t)),
-                                       elasticity[problem.mesh.triangle_body[t]]);
+    const auto K = element.stiffness(TriangleShape(problem.vertices_of(t)),
+                                     elasticity[problem.mesh.triangle_body[t]]);
     Eigen::MatrixXd& of_outer = K_.emplace_back(K.topLeftCorner(outer, outer));
     if (inner > 0) {
       Eigen::MatrixXd eliminated = K.bottomLeftCorner(inner, outer);
@@ -63,12 +63,12 @@ void VertexStars::improve(int vertex, DisplacementField& w) {
     free_.push_back(node);
   };
   for (int at = first_[vertex]; at < first_[vertex + 1]; ++at) {
-    const auto nodes = triangle_nodes(problem_, of_degree_.degree, triangle_[at]);
+    const auto nodes = triangle_nodes(problem_, element_.degree, triangle_[at]);
     const int corner =
         static_cast<int>(std::find(nodes.begin(), nodes.begin() + 3, vertex) - nodes.begin());
     add(vertex);
     for (const int edge : {corner, (corner + 2) % 3})
-      for (int i = 1; i < of_degree_.degree; ++i) add(nodes[of_degree_.on_edge(edge, i)]);
+      for (int i = 1; i < element_.degree; ++i) add(nodes[element_.on_edge(edge, i)]);
   }
   const auto n = static_cast<Eigen::Index>(2 * free_.size());
   matrix_.assign(static_cast<std::size_t>(n * (n + 1)), 0);
@@ -76,15 +76,15 @@ void VertexStars::improve(int vertex, DisplacementField& w) {
   Eigen::Map<Eigen::VectorXd> r(matrix_.data() + n * n, n);
   for (int at = first_[vertex]; at < first_[vertex + 1]; ++at) {
     const int t = triangle_[at];
-    const auto nodes = triangle_nodes(problem_, of_degree_.degree, t);
-    Eigen::VectorXd off(2 * of_degree_.outer);
-    for (int i = 0; i < of_degree_.outer; ++i)
-      off.segment<2>(2 * i) = own_.col(of_degree_.nodes * t + i) - w.col(nodes[i]);
-    for (int j = 0; j < of_degree_.outer; ++j) {
+    const auto nodes = triangle_nodes(problem_, element_.degree, t);
+    DisplacementTriangle::Vector off(2 * element_.outer);
+    for (int i = 0; i < element_.outer; ++i)
+      off.segment<2>(2 * i) = own_.col(element_.nodes * t + i) - w.col(nodes[i]);
+    for (int j = 0; j < element_.outer; ++j) {
       const int column = number_[nodes[j]];
       if (column < 0) continue;
       for (int x = 0; x < 2; ++x) r(2 * column + x) += K_[t].col(2 * j + x).dot(off);
-      for (int i = 0; i < of_degree_.outer; ++i)
+      for (int i = 0; i < element_.outer; ++i)
         if (const int row = number_[nodes[i]]; row >= column)
           for (int x = 0; x < 2; ++x)
             for (int y = 0; y < 2; ++y)

@@ -31,7 +31,7 @@ class VertexStars {
   void improve(int vertex, DisplacementField& w);
 
   const Problem& problem_;
-  const DisplacementTriangle& of_degree_;
+  const DisplacementTriangle& element_;
   const Eigen::Matrix2Xd& own_;
   const std::vector<bool>& held_;
   std::vector<Eigen::MatrixXd> K_;     // per triangle, of the outer nodes, without the inner ones

@@ -69,11 +69,10 @@ class ElementMatricesIn {
   // K_e: its lower triangle is read.
   void add(std::span<const int> of_element, const Point& at,
            const Eigen::Ref<const Eigen::MatrixX<Scalar>>& K_e) {
-    std::vector<Scalar> of_lower;
-    of_lower.reserve(static_cast<std::size_t>(lower.length()));
+    unknown.push_back(of_element.data());
+    centre.push_back(at);
     for (int j = 0; j < size; ++j)
-      for (int i = j; i < size; ++i) of_lower.push_back(K_e(i, j));
-    add(of_element, at, of_lower.data());
+      for (int i = j; i < size; ++i) lower.entries().push_back(K_e(i, j));
   }
   // An unknown by itself.
   void add_diagonal(int of, const Point& at, Scalar stiffness) {

@@ -1,6 +1,6 @@
 // A few doubles side by side that go through a formula together: a scalar for the templates of
-// hct.hpp and equilibrium_element.hpp. Every lane is computed as a double by itself would be, in
-// the same order, so that the number of lanes does not change a bit.
+// equilibrium_element.hpp. Every lane is computed as a double by itself would be, in the same
+// order, so that the number of lanes does not change a bit.
 #pragma once
 
 #include <Eigen/Core>

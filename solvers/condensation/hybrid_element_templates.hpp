@@ -71,11 +71,6 @@ void to_walk(const HybridInput<Scalar, k>& input, Scalar* pairs) {
   reorder(input, pairs);
 }
 
-template <typename Matrix, typename Scalar>
-void copy(const Matrix& from, Scalar* to) {
-  for (int i = 0; i < from.size(); ++i) to[i] = from.data()[i];
-}
-
 template <typename Scalar, int k>
 EquilibriumElement<Scalar, k> element_of(const HybridInput<Scalar, k>& input) {
   const Eigen::Map<const TriangleVerticesFor<Scalar>> vertices(input.vertices);
@@ -100,7 +95,8 @@ HybridStiffness<Scalar, k> hybrid_stiffness(const HybridInput<Scalar, k>& input,
   for (Scalar& force : result.load) force = 0;
   if (loaded) {
     const typename Element::Stress particular = particular_of(input);
-    copy(element.edge_forces(particular), result.load);
+    const typename Element::OnEdges forces = element.edge_forces(particular);
+    std::copy_n(forces.data(), forces.size(), result.load);
     to_unknowns(input, result.load);
     element.subtract_outer_load(R, particular, result.load);
   }
@@ -119,10 +115,11 @@ HybridStress<Scalar, k> hybrid_stress(
       loaded ? element.stress(displacement, particular_of(input)) : element.stress(displacement);
   const typename Element::Defect defect = element.defect(displacement, total);
   HybridStress<Scalar, k> result;
-  copy(total, result.stress);
-  copy(element.edge_forces(total), result.forces);
+  const typename Element::OnEdges forces = element.edge_forces(total);
+  std::copy_n(total.data(), total.size(), result.stress);
+  std::copy_n(forces.data(), forces.size(), result.forces);
   to_unknowns(input, result.forces);
-  copy(defect.forces, result.defect);
+  std::copy_n(defect.forces.data(), defect.forces.size(), result.defect);
   to_unknowns(input, result.defect);
   result.defect_energy = defect.energy;
   return result;

@@ -1,5 +1,5 @@
-// hybrid_element.hpp for several elements at a time: in double one per lane
-// of the widest vector instructions that the processor has, in other scalars one by one.
+// hybrid_element.hpp for several elements at a time: in double one per lane of the widest vector
+// instructions that the processor has, in other scalars one by one.
 //
 // One program serves all processors: the kernels are compiled once per instruction set
 // (hybrid_kernels_isa.cpp), and the choice is made when the program runs. It changes no bit of an

@@ -63,20 +63,20 @@ void add_nodal(Eigen::Matrix2Xd forces, const std::map<int, Eigen::Matrix2d>& fr
 // A triangle in the unknowns' directions.
 struct Element {
   DisplacementTriangle::Nodes nodes;
-  std::vector<int> unknown;
-  Eigen::VectorXd given;  // the prescribed coefficients, else 0
+  std::array<int, 2 * DisplacementTriangle::max_nodes> unknown;  // those of its nodes come first
+  DisplacementTriangle::Vector given;  // the prescribed coefficients, else 0
   DisplacementTriangle::Stiffness K;
 };
 
 Element element(const Problem& problem, const DisplacementSystem& system,
                 const std::map<int, Eigen::Matrix2d>& frame, int t,
                 const Eigen::Matrix3d& elasticity) {
-  const auto& of_degree = DisplacementTriangle::of_degree(system.degree);
+  const auto& triangle = DisplacementTriangle::of_degree(system.degree);
   Element result{triangle_nodes(problem, system.degree, t),
-                 std::vector<int>(static_cast<std::size_t>(2 * of_degree.nodes)),
-                 Eigen::VectorXd(2 * of_degree.nodes),
-                 of_degree.stiffness(TriangleShape(problem.vertices_of(t)), elasticity)};
-  for (int m = 0; m < of_degree.nodes; ++m) {
+                 {},
+                 DisplacementTriangle::Vector(2 * triangle.nodes),
+                 triangle.stiffness(TriangleShape(problem.vertices_of(t)), elasticity)};
+  for (int m = 0; m < triangle.nodes; ++m) {
     const int node = result.nodes[m];
     Eigen::Vector2d given = system.given.u.col(node);
     if (const auto own = frame.find(node); own != frame.end()) {
@@ -96,7 +96,7 @@ Element element(const Problem& problem, const DisplacementSystem& system,
 // b −= K_e u0 of a triangle.
 void subtract_known_forces(const Element& element, DisplacementSystem& system) {
   if (element.given.isZero(0)) return;
-  const Eigen::VectorXd force = element.K.lazyProduct(element.given);
+  const DisplacementTriangle::Vector force = element.K.lazyProduct(element.given);
   for (int j = 0; j < force.size(); ++j)
     if (element.unknown[j] != DisplacementSystem::prescribed)
       system.b(element.unknown[j]) -= force(j);

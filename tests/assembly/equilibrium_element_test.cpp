@@ -178,9 +178,10 @@ TEST(EquilibriumElement, OnlyRigidMotionsHaveNoForces) {
 Eigen::MatrixXd hct_stiffness(const Triangle& v, const Eigen::Matrix3d& C) {
   const EdgeSigns outward = {1, 1, 1};
   const Eigen::Vector2d a = v.col(1) - v.col(0), b = v.col(2) - v.col(0);
-  const auto stress = hct_stress<double, 9>(v, outward);
-  const auto S = SmallCholesky<double, 9>::of_root(
-      hct_flexibility_root(stress, (a.x() * b.y() - a.y() * b.x()) / 2, C));
+  const double area = (a.x() * b.y() - a.y() * b.x()) / 2;
+  const Eigen::Matrix<double, 36, 9> M =
+      hct_flexibility_root(hct_stress(v, outward), area, C).rightCols<9>();
+  const auto S = SmallCholesky<double, 9>::of_root(M);
   Eigen::Matrix<double, 9, 12> root = Eigen::Matrix<double, 9, 12>::Zero();
   for (int t = 0; t < 3; ++t) {
     const int next = (t + 1) % 3;

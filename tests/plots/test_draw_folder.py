@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 import running  # noqa: F401  (finds the programs)
-from draw_folder import programs_of
+from draw_folder import drawing_programs
 from records import RecordsError
 
 BODY = {"scene": "default", "study": "", "n_phi": 100, "n_c": 10}
@@ -27,17 +27,17 @@ class DrawFolderTest(unittest.TestCase):
                                   ([PROBLEM, BODY], ["contact_profiles.py", "figures.py"]),
                                   ([PROBLEM | {"study": ""}], ["figures.py"]), ([], ["figures.py"])):
             self.write(*records)
-            self.assertEqual(programs_of(self.folder, None, False), programs, records)
+            self.assertEqual(drawing_programs(self.folder, None, False), programs, records)
         (self.folder / "fields").mkdir()
-        self.assertEqual(programs_of(self.folder, None, False), ["gallery.py", "figures.py"])
-        self.assertEqual(programs_of(self.folder, "figure3", False), ["figures.py"])
+        self.assertEqual(drawing_programs(self.folder, None, False), ["gallery.py", "figures.py"])
+        self.assertEqual(drawing_programs(self.folder, "figure3", False), ["figures.py"])
         (self.folder / "records.jsonl").unlink()
-        self.assertEqual(programs_of(self.folder, None, False), ["gallery.py"])
+        self.assertEqual(drawing_programs(self.folder, None, False), ["gallery.py"])
 
     def test_packed_records_and_tables_have_figures(self) -> None:
         for name in ("records.jsonl.gz", "results.csv"):
             (self.folder / name).touch()
-            self.assertEqual(programs_of(self.folder, None, False), ["figures.py"])
+            self.assertEqual(drawing_programs(self.folder, None, False), ["figures.py"])
             (self.folder / name).unlink()
 
     def test_nothing_to_draw_is_said(self) -> None:
@@ -46,7 +46,7 @@ class DrawFolderTest(unittest.TestCase):
                                     (None, True, "has no path of load steps"),
                                     ("x", True, "--animate: not together with --only")):
             with self.assertRaisesRegex(RecordsError, said.replace("(", r"\(")):
-                programs_of(self.folder, only, animate)
+                drawing_programs(self.folder, only, animate)
 
 
 if __name__ == "__main__":

@@ -252,4 +252,5 @@ class RunTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
         self.assertIn(f"{folder} has neither records nor fields/", done.stderr)
         self.assertEqual((wrong.returncode, wrong.stdout, wrong.stderr.count("\n")), (2, "", 1))
-        self.assertIn("draw_folder.py: unrecognized arguments: another\n", wrong.stderr)
+        self.assertIn("another' (valid: a results folder, --only=GLOB,..., --animate, "
+                      "--vector)", wrong.stderr)

@@ -1,5 +1,5 @@
-// HYBRID:k=…: the default tooth and others by stresses of every degree; the reference
-// values as k grows, the contact law, loads and supports.
+// HYBRID:k=…: the default tooth and others by stresses of every degree; the reference values as k
+// grows, the contact law, loads and supports.
 #include <gtest/gtest.h>
 
 #include "assembly/elasticity.hpp"

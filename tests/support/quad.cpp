@@ -1,10 +1,7 @@
 #include "tests/support/quad.hpp"
 
-#include "assembly/edge_forces_templates.hpp"
 #include "assembly/equilibrium_element_templates.hpp"
-#include "assembly/hct_templates.hpp"
 #include "assembly/reference_element_templates.hpp"
-#include "assembly/stress_field_templates.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybridized_templates.hpp"
 
