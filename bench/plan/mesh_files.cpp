@@ -43,6 +43,14 @@ void check_name(const Mesh& mesh, const std::filesystem::path& path) {
 constexpr const char* converter = "meshgen";
 constexpr double time_limit_s = 900;
 
+// Next to this program; where it has not been built, ./run says how.
+std::optional<std::filesystem::path> converter_program() {
+  auto program = program_of_ours(converter);
+  const char* const build = std::getenv("AIRYBENCH_BUILD_MESHGEN");
+  if (!program && build != nullptr && std::system(build) == 0) program = program_of_ours(converter);
+  return program;
+}
+
 // The last of its complaints, with the table that may follow.
 std::string complaint_of(const ProgramEnd& end) {
   if (end.signal != 0)
@@ -60,7 +68,7 @@ std::string complaint_of(const ProgramEnd& end) {
 // error. mode: --convert, --show; settings: options of these. Throws FileError.
 std::string said_of_model(const std::string& mode, const std::filesystem::path& model,
                           const std::vector<std::string>& settings) {
-  const auto program = program_of_ours(converter);
+  const auto program = converter_program();
   if (!program)
     throw FileError(
         fmt::format("{}: a Gmsh model, but there is no {} next to this program (Debian: "
@@ -123,7 +131,7 @@ MeshFile read_or_convert(const std::filesystem::path& path, const Options& optio
       std::cerr << fmt::format("note: {}: {}\n", path.string(), file.straightened.words());
     return file;
   } catch (const ForeignMeshError&) {
-    if (!program_of_ours(converter) || is_of_catalogue(path)) throw;
+    if (!converter_program() || is_of_catalogue(path)) throw;
   }
   return converted(path, options, settings);
 }

@@ -28,30 +28,6 @@ class RunScriptTest(unittest.TestCase):
             return subprocess.run(["bash", "-c", script, "run", *arguments], text=True, capture_output=True,
                                   env={"PATH": f"{folder}:/usr/bin:/bin", **environment}, check=False)
 
-    def names_a_model(self, *arguments: str, folder: str = ".") -> bool:
-        script = f"set -euo pipefail\n{FUNCTIONS}\nnames_a_model \"$@\""
-        status = subprocess.run(["bash", "-c", script, "run", *arguments], cwd=folder).returncode
-        self.assertIn(status, (0, 1))
-        return status == 0
-
-    def test_meshgen_is_needed_where_an_argument_names_a_model(self) -> None:
-        for arguments in (["--mesh=part.geo"], ["--mesh", "part.geo"], ["--mesh=Mesh0,a/PART.STEP"],
-                          ["advise", "--mesh=part.brep", "--error=1%"], ["--mesh=part.igs,Mesh1"],
-                          ["--mesh=part.inp"], ["--mesh=a.msh.gz"], ["--mesh=a.msh", "--role=3=contact"],
-                          ["--new-scene=part.geo"]):
-            self.assertTrue(self.names_a_model(*arguments), arguments)
-        for arguments in ([], ["--mesh=Mesh0..Mesh3"], ["--mesh=there_is_none.msh"],
-                          ["--scene=part.geo.json"], ["--out=geo"]):
-            self.assertFalse(self.names_a_model(*arguments), arguments)
-
-    def test_a_mesh_file_of_another_form_is_a_model(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            for version, is_model in (("2.2 0 8", False), ("4.1 0 8", True), ("2.2 1 8", True)):
-                Path(folder, "part.msh").write_text(f"$MeshFormat\n{version}\n", encoding="utf-8")
-                self.assertEqual(self.names_a_model("--mesh=Mesh0,part.msh", folder=folder), is_model)
-            Path(folder, "empty.msh").write_bytes(b"")
-            self.assertTrue(self.names_a_model("--mesh=empty.msh", folder=folder))
-
     def test_a_build_in_which_nothing_is_compiled_is_silent(self) -> None:
         ninja = """case "$*" in
   *" -n") echo "[1/4] Noting revision and compiler"
@@ -124,6 +100,8 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
         bench = project / "build/release/bench/bench"
         bench.parent.mkdir(parents=True)
         shutil.copy(RUN, project)
+        (project / "bench").mkdir()
+        shutil.copy(RUN.parent / "bench/compare_revisions.sh", project / "bench")
         programs = {bench: 'echo "bench $*"', folder / "cmake": ":",
                     folder / "dpkg-query": "printf 'installed %s\\n' \"$@\"",
                     **{folder / name: f'echo "{name} $*" >> {folder}/log' for name in ("one", "two")}}
