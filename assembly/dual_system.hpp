@@ -25,10 +25,11 @@
 #include "assembly/contact_problem.hpp"
 #include "assembly/dof_numbering.hpp"
 #include "assembly/problem.hpp"
+#include "support/wide.hpp"
 
 namespace airybench {
 
-using LongVector = Eigen::VectorX<long double>;
+using WideVector = Eigen::VectorX<Wide>;
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
 // degree: of the stresses, k + 1 points per edge. Two components if there is friction anywhere; ḡ

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "support/wide.hpp"
+
 namespace airybench {
 
 template <typename Scalar>
@@ -30,7 +32,7 @@ EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2<Data<Scalar>>& a,
 
 template EdgeForcesIn<double> edge_forces<double>(const Eigen::Vector2d&, const Eigen::Vector2d&,
                                                   double);
-template EdgeForcesIn<long double> edge_forces<long double>(const Eigen::Vector2d&,
-                                                            const Eigen::Vector2d&, double);
+template EdgeForcesIn<Wide> edge_forces<Wide>(const Eigen::Vector2d&, const Eigen::Vector2d&,
+                                              double);
 
 }  // namespace airybench

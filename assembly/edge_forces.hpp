@@ -10,7 +10,7 @@
 // normal part the edge's degree of freedom) and R = [0 1; −1 0]:
 //   F^a = R (−3 g_a + 4 g_m − g_b) / 2      F^b = R (g_a − 4 g_m + 3 g_b) / 2
 //
-// Templates are instantiated for double and long double. Coordinates are exact (exact_data.hpp);
+// Templates are instantiated for double and Wide. Coordinates are exact (exact_data.hpp);
 // their differences are taken in Scalar.
 #pragma once
 

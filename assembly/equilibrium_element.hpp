@@ -33,7 +33,7 @@
 // 1/(1 − 2ν) for ν → ½. Where these are many, S is factorised by its root, S = MᵀM, M = QR
 // (SmallCholesky::of_root), which loses half of them.
 //
-// Templates over the scalar are instantiated for double and long double; packs of doubles use the
+// Templates over the scalar are instantiated for double and Wide; packs of doubles use the
 // constant matrices in double.
 #pragma once
 
@@ -44,6 +44,7 @@
 #include "assembly/hct.hpp"
 #include "assembly/small_cholesky.hpp"
 #include "assembly/stress_degrees.hpp"
+#include "support/wide.hpp"
 
 namespace airybench {
 
@@ -71,7 +72,7 @@ struct ReferenceElement {
 };
 
 // Their entries, as plain data: kernels of several instruction sets share no code for doubles.
-// Those in double are rounded from long double.
+// Those in double are rounded from Wide.
 template <typename Scalar>
 struct ReferenceMatrices {
   const Scalar *stress[3], *mass_root, *weighted[3], *flexibility[6], *forces;
@@ -152,6 +153,6 @@ typename EquilibriumElement<Scalar, k>::Stress linear_stress(
 
 template <>
 const ReferenceMatrices<double>& reference_matrices(int k);
-extern template const ReferenceMatrices<long double>& reference_matrices(int k);
+extern template const ReferenceMatrices<Wide>& reference_matrices(int k);
 
 }  // namespace airybench

@@ -2,11 +2,11 @@
 
 namespace airybench {
 
-template struct ReferenceElement<long double>;
-template const ReferenceMatrices<long double>& reference_matrices(int k);
+template struct ReferenceElement<Wide>;
+template const ReferenceMatrices<Wide>& reference_matrices(int k);
 template <>
 const ReferenceMatrices<double>& reference_matrices(int k) {
-  return reference_formulas::rounded<double, long double>(k);
+  return reference_formulas::rounded<double, Wide>(k);
 }
 
 }  // namespace airybench

@@ -149,12 +149,12 @@ ReferenceElement<Scalar>::ReferenceElement(int k) {
 
 namespace reference_formulas {
 
-// Entries of a ReferenceElement in Scalar, which is computed in Wide.
-template <typename Scalar, typename Wide>
+// Entries of a ReferenceElement in Scalar, which is computed in Exact.
+template <typename Scalar, typename Exact>
 struct Rounded {
-  explicit Rounded(const ReferenceElement<Wide>& element) {
+  explicit Rounded(const ReferenceElement<Exact>& element) {
     std::vector<std::pair<const Scalar**, std::size_t>> places;
-    const auto put = [&](const Eigen::MatrixX<Wide>& matrix, const Scalar*& place) {
+    const auto put = [&](const Eigen::MatrixX<Exact>& matrix, const Scalar*& place) {
       places.emplace_back(&place, entries.size());
       for (Eigen::Index i = 0; i < matrix.size(); ++i)
         entries.push_back(static_cast<Scalar>(matrix.data()[i]));
@@ -170,10 +170,10 @@ struct Rounded {
   ReferenceMatrices<Scalar> matrices;
 };
 
-template <typename Scalar, typename Wide>
+template <typename Scalar, typename Exact>
 const ReferenceMatrices<Scalar>& rounded(int k) {
-  return made_once(k,
-                   [](int degree) { return Rounded<Scalar, Wide>(ReferenceElement<Wide>(degree)); })
+  return made_once(
+             k, [](int degree) { return Rounded<Scalar, Exact>(ReferenceElement<Exact>(degree)); })
       .matrices;
 }
 

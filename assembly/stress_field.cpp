@@ -4,6 +4,7 @@
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/stress_degrees.hpp"
+#include "support/wide.hpp"
 
 namespace airybench {
 
@@ -128,9 +129,9 @@ template ElementStressIn<double> stress_dual(const ElementStressIn<double>&, dou
 template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
                                    Eigen::Matrix<double, 12, 1>&);
 template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
-                                   Eigen::Matrix<long double, 12, 1>&);
-template ElementStressIn<long double> particular_element_stress(const Problem&, int);
-template ElementStressIn<long double> stress_dual(const ElementStressIn<long double>&, long double,
-                                                  const Eigen::Matrix3d&);
+                                   Eigen::Matrix<Wide, 12, 1>&);
+template ElementStressIn<Wide> particular_element_stress(const Problem&, int);
+template ElementStressIn<Wide> stress_dual(const ElementStressIn<Wide>&, Wide,
+                                           const Eigen::Matrix3d&);
 
 }  // namespace airybench

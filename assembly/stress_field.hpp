@@ -3,7 +3,7 @@
 //
 // Energies of φ are computed from stresses, not as ½φᵀSφ: φ is large where the stress is not, and
 // its affine part cancels (measured on a rack: 4e-8 relative lost for a constant stress). Templates
-// over the scalar are instantiated for double and long double.
+// over the scalar are instantiated for double and Wide.
 #pragma once
 
 #include "assembly/bernstein.hpp"

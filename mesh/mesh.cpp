@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "mesh/outline.hpp"
+#include "support/wide.hpp"
 
 namespace airybench {
 namespace {
@@ -161,9 +162,9 @@ void check_overlap(const Mesh& mesh, const std::vector<int>& next,
   for (const std::vector<int>& curve : curves) {
     auto& polygon = polygons.emplace_back();
     for (const int v : curve) polygon.push_back(mesh.vertices[v]);
-    long double twice_area = 0;
+    Wide twice_area = 0;
     for (std::size_t i = 2; i < polygon.size(); ++i)
-      twice_area += cross_area<long double>(polygon[0], polygon[i - 1], polygon[i]);
+      twice_area += cross_area<Wide>(polygon[0], polygon[i - 1], polygon[i]);
     outer += twice_area > 0;
   }
   if (const auto edges = where_they_meet(polygons)) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mesh/mesh.hpp"
+#include "support/wide.hpp"
 
 namespace airybench {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 using Found = std::optional<std::array<int, 2>>;  // edges, counted through all polygons
 
 int side_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& x) {
-  const auto area = cross_area<long double>(a, b, x);
+  const auto area = cross_area<Wide>(a, b, x);
   return (area > 0) - (area < 0);
 }
 

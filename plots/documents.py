@@ -16,7 +16,6 @@ from words import columns_of, csv_of, seconds, short
 
 NOTE = ("*n_C of Mesh0*: 40 instead of the printed 38, which is no multiple of 4; every contact "
         "edge has 4 rows.")
-STUDIES = ("error", "")  # ordinary cases in the folder are points too
 DECADES = 6  # at most, of budgets where a run has none
 COLUMNS = ("knob", "knob_value", "stop", "status", "time_s", "tuning_s", "error_stress", "error_force")
 
@@ -72,9 +71,10 @@ def error_of(row: Row) -> float:
 
 
 def cases_of(rows: list[Row]) -> list[Row]:
-    """Of stress methods and one scene; empty without a point of an error study."""
-    own = of_scene([row for row in rows if row.study in STUDIES and not row.in_displacements])
-    return own if any(row.study == "error" and is_point(row) for row in own) else []
+    """Of stress methods and one scene, ordinary cases, too; empty without a point of an error study."""
+    own = of_scene([row for row in rows
+                    if (row.points == "accuracy" or not row.study) and not row.in_displacements])
+    return own if any(row.points == "accuracy" and is_point(row) for row in own) else []
 
 
 def budgets_of(cases: list[Row]) -> list[float]:

@@ -23,7 +23,7 @@ def drawing_programs(folder: Path, only: str | None, animate: bool) -> list[str]
     lines = folder / "records.jsonl"
     records = list(read_lines(lines)) if lines.exists() and not only else []
     without_body = [record for record in records if is_without_body(record)]
-    has_profiles = any(record.get("study") == "contact" for record in without_body)
+    has_profiles = any(record.get("points", record.get("study")) == "contact" for record in without_body)
     if has_profiles:
         programs.append("contact_profiles.py")
     if any((folder / name).exists() for name in RECORDS) and not (has_profiles and len(without_body) == len(records)):

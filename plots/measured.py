@@ -190,7 +190,7 @@ def errors(rows: list[Row]) -> Iterator[str]:
 
 
 def is_turned(row: Row) -> bool:
-    return row.study == "error" and bool(row.knob)
+    return row.points == "accuracy" and bool(row.knob)
 
 
 def stops(rows: list[Row]) -> Iterator[str]:

@@ -30,6 +30,9 @@ CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")
 # A study is a file: bench/plan/study.hpp.
 STUDIES = tuple(sorted(file.stem for file in
                        (Path(__file__).resolve().parents[1] / "bench/scenes").glob("*.json")))
+# The cases of each method in a study: its `points`. Older records have the study's name alone.
+POINTS = ("accuracy", "contact", "threads")
+POINTS_OF_OLDER = {"error": "accuracy", "contact": "contact", "scaling": "threads"}
 # As in memory_by_owner, from what every method has to what few have.
 OWNERS = ("blocks", "system_matrix", "factor", "preconditioner", "intermediate", "condensed",
           "iteration", "answer", "check", "other")
@@ -141,6 +144,7 @@ KINDS = (
     (one_of(STATUSES, may_be_empty=False), "status"),
     (one_of(CONTACT_SOLVERS), "contact_solver"),
     (one_of(STUDIES), "study"),
+    (one_of(POINTS), "points"),
     (one_of(OUTCOMES), "outcome"),
     (one_of(STATUSES), "claimed_status"))
 OF_NAME = {name: kind for kind, names in KINDS for name in names.split()}
@@ -151,11 +155,11 @@ NEEDED = ("mesh", "scene", "method", "general_name", "family", "preconditioner",
           "threads", "repetitions", "time_s", "tuning_s", "peak_heap_bytes", "done_fraction",
           "extrapolated_time_s", "error_force")
 IDENTITY = ["mesh", "scene", "method", "stop", "contact_solver", "study", "knob", "knob_value"]
-OF_STUDY = {  # also required in rows of a study
-    "error": ("outcome", "knob", "knob_value", "error_stress", "error_discretisation",
-              "error_total"),
-    "contact": ("outcome", "contact_solver"),
-    "stability": ("outcome", "scene_group", "error_stress"),
+OF_STUDY = {  # also required in rows of a study, by its points or its name
+    ("points", "accuracy"): ("outcome", "knob", "knob_value", "error_stress",
+                             "error_discretisation", "error_total"),
+    ("points", "contact"): ("outcome", "contact_solver"),
+    ("study", "stability"): ("outcome", "scene_group", "error_stress"),
 }
 NEVER_EMPTY = ("outcome", "scene_group")  # in a study that needs them
 OF_COMPLETED = ("time_s", "n_phi", "repetitions")
@@ -244,15 +248,17 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
 
     table = checked(items, KEYS, needed, place, text=header is not None)
     table.insert(0, "line", lines)
-    for study, names in OF_STUDY.items():
-        for k in table.index[table.study == study]:
+    table["points"] = table.points.where(table.points != "",
+                                         table.study.map(POINTS_OF_OLDER).fillna(""))
+    for (column, word), names in OF_STUDY.items():
+        for k in table.index[table[column] == word]:
             for name in names:
                 if header and name not in header:
-                    raise RecordsError(f"{path}:1: no column {name}; the {study} study of line "
-                                       f"{table.line[k]} needs it")
+                    raise RecordsError(f"{path}:1: no column {name}; the {table.study[k]} study of "
+                                       f"line {table.line[k]} needs it")
                 if name in NEVER_EMPTY and not table[name][k]:
                     raise RecordsError(f"{place(k)}: {name} is '', expected a value in the study "
-                                       f"'{study}'")
+                                       f"'{table.study[k]}'")
     for name in OF_COMPLETED:
         for k in table.index[table.status.isin(COMPLETED) & ~table[name].astype(bool)]:
             if name in needed:

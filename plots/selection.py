@@ -40,12 +40,12 @@ def by_stop(rows: list[Row]) -> dict[str, list[Row]]:
 
 def has_other_solver(row: Row) -> bool:
     """Of the contact law than it implies; only the figure `contact` tells solvers apart."""
-    return row.study != "contact" and bool(other_contact_solver(vars(row)))
+    return row.points != "contact" and bool(other_contact_solver(vars(row)))
 
 
 def comparable(rows: list[Row]) -> list[Row]:
     """Without cases that have another solver of the contact law, if others remain."""
-    others_remain = any(row.study != "contact" and not has_other_solver(row) for row in rows)
+    others_remain = any(row.points != "contact" and not has_other_solver(row) for row in rows)
     return [row for row in rows if not (others_remain and has_other_solver(row))]
 
 

@@ -109,7 +109,8 @@ void compare_forces(const Eigen::VectorXd& F, const Condensed& condensed, double
     c.unnamed = c.has_no_forces ? "no forces at all" : unnamed_forces(c.off, target);
 }
 
-Compared check_case(const Method& program, const PosedScene& scene, const Options& options) {
+Compared check_case(const Method& program, const PosedScene& scene, const CaseSettings& asked,
+                    const Limits& limits) {
   Compared c;
   c.seen.name = scene.scene_name;
   const std::string about = parse_json(scene.scene_definition).value("about", "");
@@ -125,7 +126,8 @@ Compared check_case(const Method& program, const PosedScene& scene, const Option
     F = answer.F_C;
     return answer;
   };
-  const Record record = Workbench(scene.problem, options).examine(watched, "").record;
+  const Record record =
+      Workbench(scene.problem, asked, limits).examine({scene, watched, asked}, "").record;
   c.seen.verdict = name_of(record.status);
   c.seen.passed = record.status == Status::ok;
   const Condensed condensed = condensed_of(program, scene);
@@ -135,16 +137,16 @@ Compared check_case(const Method& program, const PosedScene& scene, const Option
   else if (!F.allFinite())
     c.unnamed = "forces that are no numbers";
   else
-    compare_forces(F, condensed, options.target_error, c);
+    compare_forces(F, condensed, asked.target_error, c);
   return c;
 }
 
 Compared check_without_solution(const Method& program, const PosedScene& scene,
-                                const Options& options) {
+                                const Limits& limits) {
   Compared c;
   c.seen = {case_without_solution, "No solution", {}, {}, {}};
   RunControl control;
-  control.deadline = Deadline::after(options.timeout_s);
+  control.deadline = Deadline::after(limits.timeout_s);
   const Solution answer = answer_without_solution(program, scene, control);
   c.seen.passed =  // by its own word: an answer that cannot be read is a breakdown, too
       answer.program &&
@@ -228,7 +230,7 @@ CheckReport conclude(std::vector<Compared>& all) {
 }  // namespace
 
 CheckReport check_program(const Method& program, const std::vector<PosedScene>& scenes,
-                          const Options& options,
+                          const CaseSettings& asked, const Limits& limits,
                           const std::function<void(const CheckedCase&)>& ended) {
   std::vector<Compared> all;
   const auto add = [&](Compared c) {
@@ -240,9 +242,9 @@ CheckReport check_program(const Method& program, const std::vector<PosedScene>& 
   for (const PosedScene& scene : scenes) {
     if (!is_without_solution_asked && scene.scene_name > case_without_solution) {
       is_without_solution_asked = true;
-      add(check_without_solution(program, scene, options));
+      add(check_without_solution(program, scene, limits));
     }
-    add(check_case(program, scene, options));
+    add(check_case(program, scene, asked, limits));
   }
   return conclude(all);
 }

@@ -26,7 +26,7 @@ struct CheckReport {
 
 // scenes: of the study `check`. ended: called after every case, the program's answer being judged.
 CheckReport check_program(const Method& program, const std::vector<PosedScene>& scenes,
-                          const Options& options,
+                          const CaseSettings& asked, const Limits& limits,
                           const std::function<void(const CheckedCase&)>& ended);
 
 }  // namespace airybench

@@ -53,31 +53,32 @@ constexpr const char* uniform_candidate = "HYBRID";
 
 Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   Options options;
-  options.methods = candidates;
-  options.out = "results/advice";
-  options.timeout_s = 20;
-  options.repetitions = fewest_to_tell_apart;
+  options.run.methods = candidates;
+  options.output.folder = "results/advice";
+  options.limits.timeout_s = 20;
+  options.limits.repetitions = fewest_to_tell_apart;
   std::string error;
   CLI::App app("Which mesh and method give a total error, how long they take, in how much memory.",
                "{bench} advise");
   app.footer(advise_footer);
   add_one_body(app, options);
   app.add_option("--error", error, "total error, relative: 1%")->required();
-  app.add_option("--method", options.methods, "to compare, by names or globs")
+  app.add_option("--method", options.run.methods, "to compare, by names or globs")
       ->capture_default_str();
-  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.timeout_s,
+  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.limits.timeout_s,
              "seconds that one solve may take");
   add_number(
       app, "--budget", Least::above_zero, most_of_a_limit, budget_s,
       "seconds for measuring methods; leaves out those that do not fit in by earlier records");
   add_memory_limit(app, options);
-  app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
+  app.add_option("--out", options.output.folder, "folder of the output files")
+      ->capture_default_str();
   parse_command_line(app, argc, argv);
   const std::optional<AdaptGoal> goal = adapt_goal_of(error);
   if (!goal || !goal->error)
     throw UsageError(
         fmt::format("--error: {} (allowed: above 0% and below 100%, as 1%)", shortened(error)));
-  options.adapt = {*goal};
+  options.run.adapt.goals = {*goal};
   return options;
 }
 
@@ -97,15 +98,16 @@ struct Advice {
 std::string command_of(const Options& options, const Record& r, bool is_adapted) {
   std::string text = called_as("bench") + " --mesh=";
   if (is_adapted || r.adapt_level == 0) {
-    text += shell_word(options.meshes);
-    for (const std::string& setting : options.model_settings) text += " " + shell_word(setting);
-    if (!options.scenes.empty()) text += " --scene=" + shell_word(options.scenes.front().string());
+    text += shell_word(options.run.meshes);
+    for (const std::string& setting : options.run.model_settings) text += " " + shell_word(setting);
+    if (!options.run.scenes.empty())
+      text += " --scene=" + shell_word(options.run.scenes.front().string());
   } else {
-    const std::filesystem::path file = recorded_file(r.mesh_file, options.out);
+    const std::filesystem::path file = recorded_file(r.mesh_file, options.output.folder);
     text += shell_word(file.string()) +
             " --scene=" + shell_word((file.parent_path() / (r.scene + ".json")).string());
   }
-  if (is_adapted) text += fmt::format(" --adapt={},levels=last", text_of(options.adapt));
+  if (is_adapted) text += fmt::format(" --adapt={},levels=last", text_of(options.run.adapt.goals));
   return text + " --method=" + shell_word(r.method);
 }
 
@@ -158,7 +160,7 @@ std::string why_hopeless(const Prediction& expected, const Prediction& fastest,
                          const Options& options) {
   constexpr double hopeless = 30;
   if (expected.timeout == LimitMark::above)
-    return fmt::format("forecast: over --timeout={:g}", options.timeout_s);
+    return fmt::format("forecast: over --timeout={:g}", options.limits.timeout_s);
   if (expected.memory_limit == LimitMark::above) return "forecast: over --memory-limit";
   if (!expected.time_s || !fastest.time_s) return "";
   const double ratio = expected.time_s->value / fastest.time_s->value;
@@ -171,8 +173,9 @@ std::string why_hopeless(const Prediction& expected, const Prediction& fastest,
 std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s,
                               const std::vector<Record>& past) {
   std::vector<Record> planned;
-  for (const Case& c : plan) planned.push_back(blank_record(c, options));
-  const std::vector<Prediction> expected = forecast(planned, past, limits_of(options)).cases;
+  for (const Case& c : plan) planned.push_back(blank_record(c, options.limits));
+  const std::vector<Prediction> expected =
+      forecast(planned, past, limits_of(options.limits, plan)).cases;
   std::vector<std::size_t> order(plan.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return expected[k].run_s.value_or(0); });
@@ -252,30 +255,33 @@ std::string csv_of(const std::vector<Advice>& rows) {
 int advise_command(int argc, const char* const* argv) {
   double budget_s = 60;
   const Options options = parse_advise(argc, argv, budget_s);
-  require_threads(options.threads);
-  check_takes_records(options.out);
-  if (std::filesystem::exists(options.out)) check_can_write(options.out / "advice.csv");
+  require_threads(options.run.cases.threads);
+  check_takes_records(options.output.folder);
+  if (std::filesystem::exists(options.output.folder))
+    check_can_write(options.output.folder / "advice.csv");
   catch_interrupts();
   const PosedScene start = one_posed_scene(options);
-  const std::vector<Method> chosen = select_methods(options.methods);
+  const std::vector<Method> chosen = select_methods(options.run.methods);
   const AdaptedScenes adapted = adapted_scenes(start, options);
   if (!adapted.why_not_reached.empty()) std::cerr << "note: " << adapted.why_not_reached << "\n";
   if (adapted.levels.empty()) return some_case_failed;
 
   const bool is_refined = adapted.levels.size() > 1;
-  set_threads(options.threads);
+  set_threads(options.run.cases.threads);
   const Context context = context_of_run(options);
-  std::vector<Case> compared = plan_cases({adapted.levels.back()}, chosen);
+  std::vector<Case> compared = plan_cases({adapted.levels.back()}, chosen, options.run);
   std::vector<Record> past =
-      read_committed_records({blank_record(compared.front(), options)}, options.out).records;
+      read_committed_records({blank_record(compared.front(), options.limits)},
+                             options.output.folder)
+          .records;
   std::vector<Record> uniform;
-  Options next = options;
+  Output next = options.output;
   if (is_refined) {
     uniform =
         run_cases(
             plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
-                       select_methods(uniform_candidate)),
-            options, context)
+                       select_methods(uniform_candidate), options.run),
+            options.limits, options.output, context)
             .records();
     next.append = true;
     const double factor = time_of_machine(uniform.back(), past);
@@ -284,9 +290,9 @@ int advise_command(int argc, const char* const* argv) {
         if (*time) **time *= factor;
   }
   const std::vector<Advice> left_out = leave_out(compared, options, budget_s, past);
-  std::vector<Record> records = run_cases(compared, next, context).records();
+  std::vector<Record> records = run_cases(compared, options.limits, next, context).records();
 
-  const double goal = *options.adapt.front().error;
+  const double goal = *options.run.adapt.goals.front().error;
   std::vector<Advice> rows;
   for (const Record& record : records) rows.push_back(advice_of(record, options, is_refined));
   std::ranges::stable_sort(
@@ -303,21 +309,22 @@ int advise_command(int argc, const char* const* argv) {
   });
   if (in_displacements != rows.end())
     fmt::print(what_displacements_lack, in_displacements->record.method);
-  write_file_atomically(options.out / "advice.csv", csv_of(rows));
+  write_file_atomically(options.output.folder / "advice.csv", csv_of(rows));
   if (!met) {
-    fmt::print("no measured method meets {}\n", text_of(options.adapt));
+    fmt::print("no measured method meets {}\n", text_of(options.run.adapt.goals));
     return some_case_failed;
   }
   const Record& best = rows.front().record;
   fmt::print("best: {}, {}{}:\n  {}\nalso in {}\n", best.mesh, best.method, ties_of(rows, goal),
-             rows.front().command, (options.out / "advice.csv").string());
+             rows.front().command, (options.output.folder / "advice.csv").string());
 
-  const auto planned = std::ranges::find(
+  Case with_fields = *std::ranges::find(
       compared, best.method, [](const Case& c) -> const auto& { return c.method.name; });
-  Options with_fields = options;
-  with_fields.fields = with_fields.append = true;
-  with_fields.repetitions = 1;
-  end_run(run_cases({*planned}, with_fields, context), options.out, true);
+  with_fields.settings.fields = true;
+  Limits once = options.limits;
+  once.repetitions = 1;
+  next.append = true;
+  end_run(run_cases({with_fields}, once, next, context), options.output.folder, true);
   return all_ok;
 }
 

@@ -14,18 +14,18 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
     return argument.substr(option.size());
   };
   if (const auto filter = value_of("--benchmark_filter=")) {
-    options.filter = *filter;
+    options.run.filter = *filter;
   } else if (const auto pair = value_of("--benchmark_context=")) {
     const std::size_t equals = pair->find('=');
     if (equals == pair->npos || equals == 0 || !is_utf8(*pair))
       throw UsageError(fmt::format("-- --benchmark_context={}: (allowed: key=value in UTF-8)",
                                    is_utf8(*pair) ? shortened(*pair) : "…"));
-    options.own_context[pair->substr(0, equals)] = pair->substr(equals + 1);
+    options.output.context[pair->substr(0, equals)] = pair->substr(equals + 1);
   } else if (const auto word = value_of("--benchmark_enable_random_interleaving=")) {
     if (*word != "true" && *word != "false")
       throw UsageError(fmt::format(
           "-- --benchmark_enable_random_interleaving={} (allowed: true, false)", shortened(*word)));
-    options.interleave = *word == "true";
+    options.limits.interleave = *word == "true";
   } else {
     throw UsageError(
         fmt::format("-- {}: not for bench's runs (allowed: --benchmark_filter=, "

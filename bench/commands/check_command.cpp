@@ -19,18 +19,19 @@ namespace airybench {
 
 int check_external(Options options) {
   require_standard_output();
-  options.repetitions = 1;
+  options.limits.repetitions = 1;
   const Method program = external_method(for_every_value(read_declaration(options.check)).front(),
-                                         options.memory_limit_bytes);
+                                         options.limits.memory_limit_bytes);
   const std::vector<PosedScene> scenes = posed_scenes(options);
-  set_threads(options.threads);
+  set_threads(options.run.cases.threads);
   catch_interrupts();
   const std::size_t all = scenes.size() + 1;
   std::size_t number = 0;
-  const CheckReport report = check_program(program, scenes, options, [&](const CheckedCase& seen) {
-    std::cerr << fmt::format("[{}/{}] {}: {}\n", ++number, all, seen.name, seen.verdict)
-              << std::flush;
-  });
+  const CheckReport report = check_program(
+      program, scenes, options.run.cases, options.limits, [&](const CheckedCase& seen) {
+        std::cerr << fmt::format("[{}/{}] {}: {}\n", ++number, all, seen.name, seen.verdict)
+                  << std::flush;
+      });
   std::vector<std::vector<std::string>> rows = {{"case", "made for", "verdict", "looks like"}};
   std::size_t passed = 0;
   for (const CheckedCase& seen : report.cases) {

@@ -13,7 +13,6 @@
 #include "bench/records/record_reader.hpp"
 #include "bench/report/history.hpp"
 #include "bench/report/results_table.hpp"
-#include "bench/report/tracker_formats.hpp"
 #include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
 #include "support/lists.hpp"
@@ -24,11 +23,8 @@ namespace {
 
 constexpr const char* export_footer = R"(
 Formats  google-benchmark  Google Benchmark's JSON, for its compare.py and most trackers
-         github-action     github-action-benchmark, tool customSmallerIsBetter
-         bencher           Bencher Metric Format, adapter json
          csv               date,revision,mesh,scene,method,stop,quantity,value: a row per case and
                            number; of a history folder the whole series
-         junit             JUnit XML: a case that is not ok fails, with its reason
          markdown          the table that bench prints, with a unit per column
          latex             the same as a tabular, for the package booktabs
 
@@ -43,7 +39,7 @@ Exit status  0  written, whatever the cases' statuses
              2  wrong usage, or records that cannot be read: one line on standard error
 
 Examples
-  {bench} export results/latest --format=bencher --out=bmf.json
+  {bench} export results/latest --format=csv --out=series.csv
   {bench} export results/paper --format=latex --mesh=Mesh3 --columns=method,time,heap,error_force
 )";
 
@@ -61,10 +57,7 @@ std::string as_table(const std::vector<Record>& cases, const Columns& columns) {
 
 const std::vector<std::pair<std::string, Writer>> formats = {
     {"google-benchmark", without_columns<google_benchmark_json>},
-    {"github-action", without_columns<github_action_json>},
-    {"bencher", without_columns<bencher_json>},
     {"csv", without_columns<series_csv>},
-    {"junit", without_columns<junit_xml>},
     {"markdown", as_table<markdown_text>},
     {"latex", as_table<latex_text>}};
 

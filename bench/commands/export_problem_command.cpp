@@ -36,16 +36,16 @@ int export_problem_command(int argc, const char* const* argv) {
   app.footer(export_problem_footer);
   add_one_body(app, options);
   app.add_option("--format", format, "of the formats below")->required();
-  app.add_option("--out", options.out, "folder to write, which is not there yet or empty")
+  app.add_option("--out", options.output.folder, "folder to write, which is not there yet or empty")
       ->required()
       ->default_str("");
   parse_command_line(app, argc, argv);
   check_problem_format(format);
-  check_is_free(options.out);
+  check_is_free(options.output.folder);
   const ProblemFiles problem = problem_files(one_posed_scene(options), format);
-  write_folder_atomically(options.out, problem.files);
+  write_folder_atomically(options.output.folder, problem.files);
   for (const std::string& note : problem.notes) fmt::print("note: {}\n", note);
-  fmt::print("{} files in {}\n", problem.files.size(), options.out.string());
+  fmt::print("{} files in {}\n", problem.files.size(), options.output.folder.string());
   return all_ok;
 }
 

@@ -106,29 +106,32 @@ std::vector<int> thread_counts_of(const Context& context) {
 
 Options options_of(const Record& record, const Context& context, std::filesystem::path out) {
   Options options;
-  options.out = std::move(out);
-  options.threads = static_cast<int>(record.threads.value_or(1));
-  options.target_error = record.target_error.value_or(options.target_error);
-  options.study = study_named(record.study).value_or(Study());
+  RunSettings& run = options.run;
+  CaseSettings& asked = run.cases;
+  Limits& limits = options.limits;
+  options.output.folder = std::move(out);
+  asked.threads = static_cast<int>(record.threads.value_or(1));
+  asked.target_error = record.target_error.value_or(asked.target_error);
+  run.study = study_named(record.study).value_or(Study());
   // Each point of an accuracy study sets its stop.
-  if (options.study.points != Study::Points::accuracy) options.stop = record.stop;
-  if (options.study.points == Study::Points::threads) {
-    options.thread_counts = thread_counts_of(context);
-    options.threads = options.thread_counts.back();
+  if (run.study.points != Study::Points::accuracy) asked.stop = record.stop;
+  if (run.study.points == Study::Points::threads) {
+    run.thread_counts = thread_counts_of(context);
+    asked.threads = run.thread_counts.back();
   }
-  if (options.study.name.empty()) options.contact = record.contact_solver;
-  options.precision = record.precision;
-  options.retry_noisy = record.retry_noisy;
-  options.tuning_budget_s = record.tuning_budget_s;
-  options.interleave = context_word(context, "interleaved") == "yes";
-  take(context, "repetitions", options.repetitions);
-  take(context, "max_repetitions", options.max_repetitions);
-  take(context, "timeout_s", options.timeout_s);
-  take(context, "long_case_s", options.long_case_s);
+  if (run.study.name.empty()) asked.contact = record.contact_solver;
+  limits.precision = record.precision;
+  limits.retry_noisy = record.retry_noisy;
+  limits.tuning_budget_s = record.tuning_budget_s;
+  limits.interleave = context_word(context, "interleaved") == "yes";
+  take(context, "repetitions", limits.repetitions);
+  take(context, "max_repetitions", limits.max_repetitions);
+  take(context, "timeout_s", limits.timeout_s);
+  take(context, "long_case_s", limits.long_case_s);
   if (context_word(context, "memory_limit_bytes") != "none") {
     std::int64_t limit = 0;
     take(context, "memory_limit_bytes", limit);
-    if (limit > 0) options.memory_limit_bytes = limit;
+    if (limit > 0) limits.memory_limit_bytes = limit;
   }
   return options;
 }
@@ -148,17 +151,19 @@ Case case_of(const Record& record, const std::string& place, const std::filesyst
              const Options& options) {
   MeshFile mesh = mesh_of(record, folder);
   const std::string definition = json_text(record.scene_definition);
-  PosedScene posed{record.scene, record.scene_group, recorded_path(mesh.path, options.out),
-                   mesh.sha256,  definition,         {}};
+  PosedScene posed{
+      record.scene, record.scene_group, recorded_path(mesh.path, options.output.folder),
+      mesh.sha256,  definition,         {}};
   Scene scene;
   if (definition != "{}") {
     scene = scene_of(definition, place + ": scene_definition");
     scene.name = record.scene;
   }
   posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
-  for (const Case& c : plan_cases({posed}, select_methods(record.method), options))
-    if (c.knob.name == record.knob && c.knob.value == record.knob_value && c.stop == record.stop &&
-        (!record.contact_solver || c.contact == record.contact_solver))
+  for (const Case& c : plan_cases({posed}, select_methods(record.method), options.run))
+    if (c.knob.name == record.knob && c.knob.value == record.knob_value &&
+        c.settings.stop == record.stop &&
+        (!record.contact_solver || c.settings.contact == record.contact_solver))
       return c;
   throw FileError(fmt::format("{}: this program has no such point of the study", record.method));
 }
@@ -192,8 +197,8 @@ int replay_command(int argc, const char* const* argv) {
   refuse_what_is_not_at_hand(record, asked.record);
   const Context& recorded = record.context;
   const Options options = options_of(record, recorded, asked.out);
-  require_threads(options.threads);
-  set_threads(options.threads);
+  require_threads(options.run.cases.threads);
+  set_threads(options.run.cases.threads);
   Context context = context_of_run(options);
   context.insert(recorded.begin(), recorded.end());  // keys that only that run has
   std::error_code error;
@@ -211,7 +216,7 @@ int replay_command(int argc, const char* const* argv) {
                     asked.record, differs));
   const Case planned = case_of(record, asked.record, asked.folder, options);
   catch_interrupts();
-  const RunResult result = run_cases({planned}, options, context);
+  const RunResult result = run_cases({planned}, options.limits, options.output, context);
   const Record now = result.record(0);
   bool same = true;
   fmt::print("{:<20}  {:>14}  {:>14}\n", name_of(record).text(), "recorded", "now");

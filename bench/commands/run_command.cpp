@@ -45,9 +45,9 @@ constexpr const char* own_body_methods = "HYBRID,P2";
 
 std::vector<Method> other_programs(const Options& options) {
   std::vector<Method> methods;
-  for (const std::filesystem::path& file : options.externals) {
+  for (const std::filesystem::path& file : options.run.externals) {
     for (const Declaration& of_value : for_every_value(read_declaration(file))) {
-      Method method = external_method(of_value, options.memory_limit_bytes);
+      Method method = external_method(of_value, options.limits.memory_limit_bytes);
       if (std::ranges::count(methods, method.name, &Method::name) > 0)
         throw UsageError(fmt::format("--external: {}: another file declares {} (allowed: one)",
                                      file.string(), method.name));
@@ -97,10 +97,11 @@ void print_stages(const std::vector<Case>& plan) {
   }
 }
 
-void print_left_out(const std::vector<Case>& plan, const Options& options) {
+void print_left_out(const std::vector<Case>& plan) {
   std::map<std::pair<std::string, std::string>, int> cases_without;  // stage, reason
   for (const Case& c : plan)
-    for (const StageDecision& decision : decide_stages(c.posed.problem, c.method, options.fields))
+    for (const StageDecision& decision :
+         decide_stages(c.posed.problem, c.method, c.settings.fields))
       if (!decision.run) ++cases_without[{decision.stage, decision.reason}];
   fmt::print("left out:\n");
   for (const auto& [what, count] : cases_without)
@@ -109,12 +110,12 @@ void print_left_out(const std::vector<Case>& plan, const Options& options) {
 
 void print_prediction(const std::vector<Case>& plan, const Options& options) {
   std::vector<Record> planned;
-  for (const Case& c : plan) planned.push_back(blank_record(c, options));
-  const PastRecords past = read_committed_records(planned, options.out);
+  for (const Case& c : plan) planned.push_back(blank_record(c, options.limits));
+  const PastRecords past = read_committed_records(planned, options.output.folder);
   for (const std::string& why : past.passed_over) std::cerr << fmt::format("{}\n", why);
-  const RunLimits limits = limits_of(options);
+  const RunLimits limits = limits_of(options.limits, plan);
   fmt::print("{}\n", prediction_table(planned, forecast(planned, past.records, limits), limits));
-  print_left_out(plan, options);
+  print_left_out(plan);
 }
 
 void print_warnings(const std::vector<std::string>& of_machine, const EarlyPasses& early,
@@ -130,19 +131,19 @@ void print_warnings(const std::vector<std::string>& of_machine, const EarlyPasse
 // and cannot solve bodies with holes.
 std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
   std::vector<Method> others = other_programs(options);
-  if (!options.problems.empty()) {
+  if (!options.run.problems.empty()) {
     others.insert(others.begin(), condensed_contact());
-    return options.methods.empty() ? others : select_methods(options.methods, others);
+    return options.run.methods.empty() ? others : select_methods(options.run.methods, others);
   }
-  const int degree = options.degree.value_or(1);
-  if (!options.methods.empty()) return select_methods(options.methods, others, degree);
-  std::string names = default_methods(options.study);
+  const int degree = options.run.degree.value_or(1);
+  if (!options.run.methods.empty()) return select_methods(options.run.methods, others, degree);
+  std::string names = default_methods(options.run.study);
   const auto is_own = [](const PosedScene& s) {
     return !is_named_after_catalogue(mesh_name_of(s.problem));
   };
-  if (options.study.name.empty() && std::ranges::any_of(scenes, is_own))
+  if (options.run.study.name.empty() && std::ranges::any_of(scenes, is_own))
     names = std::ranges::all_of(scenes, is_own) ? own_body_methods : names + "," + own_body_methods;
-  if (!others.empty() && options.study.name.empty())  // next to what they are to beat
+  if (!others.empty() && options.run.study.name.empty())  // next to what they are to beat
     names = std::ranges::any_of(scenes, is_own) ? own_body_methods : "HYBRID";
   if (!others.empty()) names += ",EXTERNAL:*";
   return select_methods(names, others, degree);
@@ -167,17 +168,18 @@ struct Adapted {
 
 std::vector<Case> plan_of(const Options& options, Adapted& adapted) {
   std::vector<PosedScene> scenes = posed_scenes(options);
-  if (!options.adapt.empty()) check_adapting_method(options);
-  if (!options.adapt.empty() && (options.dry_run || options.explain)) {
+  if (!options.run.adapt.goals.empty()) check_adapting_method(options);
+  if (!options.run.adapt.goals.empty() && (options.dry_run || options.explain)) {
     std::cerr
         << "note: --adapt: of the first level alone; the others are known when it is solved\n";
-  } else if (!options.adapt.empty()) {
-    make_folder(options.out);
-    adapted.lock.emplace(options.out);
+  } else if (!options.run.adapt.goals.empty()) {
+    make_folder(options.output.folder);
+    adapted.lock.emplace(options.output.folder);
     scenes = levels_of(scenes, options, adapted.short_of);
   }
-  std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options);
-  if (!options.filter.empty()) plan = matching(std::move(plan), options.filter, options.interleave);
+  std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.run);
+  if (!options.run.filter.empty())
+    plan = matching(std::move(plan), options.run.filter, options.limits.interleave);
   if (plan.empty() && adapted.short_of.empty())
     throw UsageError("no case is left: the arguments after -- select none");
   return plan;
@@ -196,9 +198,10 @@ std::string times_line(const RunTimes& times) {
 
 int run_command(int argc, const char* const* argv) {
   Options options = parse_options(argc, argv);
-  if (options.figure) {
-    options.meshes = *options.figure == 3 ? "Mesh3" : "Mesh0..Mesh7";
-    options.methods = *options.figure == 3 ? figure_3_methods : default_methods(options.study);
+  if (options.run.figure) {
+    options.run.meshes = *options.run.figure == 3 ? "Mesh3" : "Mesh0..Mesh7";
+    options.run.methods =
+        *options.run.figure == 3 ? figure_3_methods : default_methods(options.run.study);
   }
   const bool only_plans = options.explain || options.dry_run;
   if (options.list || only_plans) require_standard_output();
@@ -207,38 +210,38 @@ int run_command(int argc, const char* const* argv) {
     return all_ok;
   }
   if (!options.new_scene.empty()) {
-    const std::string scene = write_new_scene(options.new_scene, options);
+    const std::string scene = write_new_scene(options.new_scene, options.run.model_settings);
     fmt::print("{}: fill it in, then: {} --mesh={} --scene={}\n", scene, called_as("bench"),
                shell_word(options.new_scene.string()), shell_word(scene));
     return all_ok;
   }
   if (!options.new_external.empty()) return new_external(options);
   if (!options.check.empty()) return check_external(std::move(options));
-  if (!only_plans) require_threads(options.threads);
-  if (!only_plans) check_takes_records(options.out);  // before meshes are written there
-  if (!options.adapt.empty() && !only_plans)
+  if (!only_plans) require_threads(options.run.cases.threads);
+  if (!only_plans) check_takes_records(options.output.folder);  // before meshes are written there
+  if (!options.run.adapt.goals.empty() && !only_plans)
     catch_interrupts();  // adapting solves; a signal just ends other planning
   Adapted adapted;
   const std::vector<Case> whole = plan_of(options, adapted);
   for (const std::string& why : adapted.short_of) std::cerr << fmt::format("note: {}\n", why);
   if (whole.empty()) return some_case_failed;
-  const std::vector<Case> plan = part_of(whole, options.shard);
+  const std::vector<Case> plan = part_of(whole, options.run.shard);
   if (plan.empty())
     throw UsageError(
-        fmt::format("--shard: {} (there are {} cases)", name_of(options.shard), whole.size()));
+        fmt::format("--shard: {} (there are {} cases)", name_of(options.run.shard), whole.size()));
   if (options.explain) print_stages(plan);
   if (options.dry_run) print_prediction(plan, options);
   if (only_plans) return all_ok;
-  set_threads(options.threads);
+  set_threads(options.run.cases.threads);
   catch_interrupts();
-  if (const auto records = options.out / "records.jsonl";
-      !options.append && !options.resume && std::filesystem::exists(records))
+  if (const auto records = options.output.folder / "records.jsonl";
+      !options.output.append && !options.output.resume && std::filesystem::exists(records))
     std::cerr << fmt::format("note: {}: this run replaces its records (--append keeps them)\n",
-                             options.out.string());
+                             options.output.folder.string());
   Context context = context_of_run(options);
   context["cases_planned"] = std::to_string(whole.size());
   context["plan_sha256"] = fingerprint(whole);
-  const RunResult result = run_cases(plan, options, context);
+  const RunResult result = run_cases(plan, options.limits, options.output, context);
   ResultsTable table;
   EarlyPasses early;
   std::vector<double> noise;
@@ -261,9 +264,9 @@ int run_command(int argc, const char* const* argv) {
     fmt::print("{} of these {} records were there already{}\n", result.earlier, cases,
                result.files->was_torn() ? ", and the start of another, which was run again" : "");
   if (result.earlier < std::ssize(plan)) fmt::print("{}\n", times_line(result.times));
-  print_warnings(machine_warnings(context, least_repetitions(options), noise), early, cases);
-  fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
-  end_run(result, options.out, options.fields);
+  print_warnings(machine_warnings(context, least_repetitions(options.limits), noise), early, cases);
+  fmt::print("records.jsonl, results.csv, results.json in {}\n", options.output.folder.string());
+  end_run(result, options.output.folder, options.run.cases.fields);
   if (cases != plan.size())
     throw std::logic_error(
         fmt::format("{} of {} cases have no record", plan.size() - cases, plan.size()));

@@ -23,7 +23,7 @@ Other commands (each has --help)
   {bench} claims DIR       the paper's sentences, checked against a results folder
   {bench} compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
   {bench} track            a run that is added to a history and judged
-  {bench} export DIR       tables for papers; records for other trackers, JUnit
+  {bench} export DIR       tables for papers; Google Benchmark's JSON, CSV
   {bench} export-problem   a problem's matrices, for your own solvers
   {bench} merge DIR...     the shards of a run, joined
   {bench} replay RECORD    one recorded case, run again
@@ -71,14 +71,14 @@ struct Texts {
 
 void add_cases(CLI::App& app, Options& options, Texts& texts) {
   app.option_defaults()->group("What is solved");
-  app.add_option("--mesh", options.meshes,
+  app.add_option("--mesh", options.run.meshes,
                  "range, list (Mesh0,Mesh3), glob, or files, meshes and models: " +
                      std::string(model_extensions))
       ->capture_default_str();
-  add_model_settings(app, options.model_settings);
-  add_files(app, "--scene", options.scenes,
+  add_model_settings(app, options.run.model_settings);
+  add_files(app, "--scene", options.run.scenes,
             "scene files or globs; default: the documented tooth or rack");
-  add_files(app, "--problem", options.problems,
+  add_files(app, "--problem", options.run.problems,
             "instead of meshes and scenes: contact problems, files (FCLIB, Siconos' .dat), folders "
             "or globs, by every contact solver (CONDENSED: newton) or --contact");
   app.add_option("--adapt", texts.adapt,
@@ -90,10 +90,10 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
                              "in cases (auto: 3 for goals below 0.1%, else 2)",
                              highest_degree));
   app.add_option(
-      "--method", options.methods,
+      "--method", options.run.methods,
       "names or globs; default: the paper's, for your own bodies HYBRID and P2, next to other "
       "programs HYBRID");
-  add_files(app, "--external", options.externals,
+  add_files(app, "--external", options.run.externals,
             "declarations of other programs, files or globs: methods EXTERNAL:name "
             "(docs/external-solvers.md)");
   app.add_option("--contact", texts.contact,
@@ -101,7 +101,7 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
                  "paper's")
       ->check(CLI::IsMember(names_of(all_contact_solvers)))
       ->capture_default_str();
-  add_whole(app, "--figure", 3, 5, options.figure,
+  add_whole(app, "--figure", 3, 5, options.run.figure,
             "meshes and methods of the paper's figure, and those that we set next to them")
       ->excludes(app.get_option("--mesh"))
       ->excludes(app.get_option("--method"));
@@ -112,7 +112,8 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
 
 void add_measuring(CLI::App& app, Options& options, Texts& texts) {
   app.option_defaults()->group("How it is measured");
-  add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
+  add_number(app, "--target-error", Least::above_zero, most_of_a_limit,
+             options.run.cases.target_error,
              "iterative methods are tightened until their own estimate is below this; a case with "
              "larger errors is inaccurate");
   app.add_option("--stop", texts.stop,
@@ -127,7 +128,7 @@ void add_measuring(CLI::App& app, Options& options, Texts& texts) {
   app.add_flag("--retry-noisy", texts.noise,
                "measure a case again, up to three times, where the calibration loop next to it was "
                "off by more than 5 %, or --retry-noisy=7%");
-  app.add_flag("--interleave", options.interleave,
+  app.add_flag("--interleave", options.limits.interleave,
                "the repetitions of a scene's cases in random turn; records are written at its end");
   app.add_option("--threads", texts.threads,
                  "of BLAS and for right-hand sides; with --study=scaling a list, by default 1, 2, "
@@ -142,10 +143,11 @@ void add_measuring(CLI::App& app, Options& options, Texts& texts) {
 
 void add_output(CLI::App& app, Options& options, Texts& texts) {
   app.option_defaults()->group("What is kept");
-  app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
-  app.add_flag("--append", options.append,
+  app.add_option("--out", options.output.folder, "folder of the output files")
+      ->capture_default_str();
+  app.add_flag("--append", options.output.append,
                "keep the records in the folder, but those of the cases that are run");
-  app.add_flag("--resume", options.resume,
+  app.add_flag("--resume", options.output.resume,
                "go on with the run in the folder, of the same machine, program and options: run "
                "only the cases without a record")
       ->excludes(app.get_option("--append"));
@@ -192,14 +194,14 @@ void read_study(const std::string& text, Options& options) {
     for (const Study& known : all_studies()) names.push_back(known.name);
     refuse("--study", text, fmt::format("{}", fmt::join(names, ", ")));
   }
-  options.study = *study;
+  options.run.study = *study;
   if (colon == text.size()) return;
   if (study->points != Study::Points::accuracy)
     refuse("--study", text, "seconds with error, which chooses from points");
   for (const std::string& word : split_list(text.substr(colon + 1)))
-    options.budgets_s.push_back(
+    options.run.budgets_s.push_back(
         read_number("--study=" + study->name, word, Least::above_zero, most_of_a_limit));
-  std::ranges::sort(options.budgets_s);
+  std::ranges::sort(options.run.budgets_s);
 }
 
 void read_repetitions(const std::string& text, Options& options) {
@@ -208,30 +210,33 @@ void read_repetitions(const std::string& text, Options& options) {
   const ValueParts parts(option, text, {"precision", "within"});
   const std::string& range = parts.only_item();
   const std::size_t dots = std::min(range.find(".."), range.size());
-  options.repetitions = static_cast<int>(read_whole(option, range.substr(0, dots), 1, most));
-  options.long_case_s = parts.number("within", most_of_a_limit).value_or(options.long_case_s);
+  options.limits.repetitions = static_cast<int>(read_whole(option, range.substr(0, dots), 1, most));
+  options.limits.long_case_s =
+      parts.number("within", most_of_a_limit).value_or(options.limits.long_case_s);
   if (const auto share = parts.setting("precision"))
-    options.precision = share_of(option + ": precision", *share, "as 2%");
+    options.limits.precision = share_of(option + ": precision", *share, "as 2%");
   if (dots < range.size()) {
-    options.max_repetitions = static_cast<int>(read_whole(option, range.substr(dots + 2), 1, most));
-    if (!options.precision)
+    options.limits.max_repetitions =
+        static_cast<int>(read_whole(option, range.substr(dots + 2), 1, most));
+    if (!options.limits.precision)
       refuse(option, text, "a range with a precision, " + shortened(range) + ",precision=2%");
   }
-  if (options.precision && options.max_repetitions < least_repetitions(options))
-    refuse(option, fmt::format("at most {}", options.max_repetitions),
-           fmt::format("from {} on", least_repetitions(options)));
+  if (options.limits.precision &&
+      options.limits.max_repetitions < least_repetitions(options.limits))
+    refuse(option, fmt::format("at most {}", options.limits.max_repetitions),
+           fmt::format("from {} on", least_repetitions(options.limits)));
 }
 
 // With budgets, a run may take twice the largest one: a detail run takes longer than a timed run.
 // No recorded time includes the search for parameters, so its limit stays.
 void read_timeout(const std::string& text, bool is_given, Options& options) {
   const ValueParts parts("--timeout", text, {"tuning"});
-  options.timeout_s =
+  options.limits.timeout_s =
       read_number("--timeout", parts.only_item(), Least::above_zero, most_of_a_limit);
-  options.tuning_budget_s = parts.number("tuning", most_of_a_limit);
-  if (options.budgets_s.empty() || is_given) return;
-  if (!options.tuning_budget_s) options.tuning_budget_s = options.timeout_s;
-  options.timeout_s = 2 * options.budgets_s.back();
+  options.limits.tuning_budget_s = parts.number("tuning", most_of_a_limit);
+  if (options.run.budgets_s.empty() || is_given) return;
+  if (!options.limits.tuning_budget_s) options.limits.tuning_budget_s = options.limits.timeout_s;
+  options.limits.timeout_s = 2 * options.run.budgets_s.back();
 }
 
 void read_adapt(const std::string& text, Options& options) {
@@ -243,13 +248,13 @@ void read_adapt(const std::string& text, Options& options) {
       refuse("--adapt", item,
              "a total error above 0% and below 100%, as 1%, or a number of unknowns from "
              "100 to 5000000");
-    options.adapt.push_back(*goal);
+    options.run.adapt.goals.push_back(*goal);
   }
-  options.adapt_by = parts.setting("by").value_or(options.adapt_by);
-  options.marking = parts.number("marking", 1);
+  options.run.adapt.by = parts.setting("by").value_or(options.run.adapt.by);
+  options.run.adapt.marking = parts.number("marking", 1);
   const std::string levels = parts.setting("levels").value_or("all");
   if (levels != "all" && levels != "last") refuse("--adapt", "levels=" + levels, "all, last");
-  options.goals_only = levels == "last";
+  options.run.adapt.goals_only = levels == "last";
 }
 
 void read_degree(const std::string& text, bool is_given, Options& options) {
@@ -257,7 +262,7 @@ void read_degree(const std::string& text, bool is_given, Options& options) {
   constexpr double low_error = 0.001;
   int degree = 2;
   if (text == "auto") {
-    for (const AdaptGoal& goal : options.adapt)
+    for (const AdaptGoal& goal : options.run.adapt.goals)
       if (goal.error.value_or(1) < low_error) degree = 3;
   } else if (text.size() == 1 && text[0] >= '1' && text[0] - '0' <= highest_degree) {
     degree = text[0] - '0';
@@ -265,28 +270,28 @@ void read_degree(const std::string& text, bool is_given, Options& options) {
     refuse("--degree", text, fmt::format("1 to {}, auto", highest_degree));
   }
   const std::string hybrid = hybrid_of_degree(degree);
-  if (options.adapt_by != "HYBRID" && options.adapt_by != hybrid)
-    refuse("--degree=" + text + " with --adapt=...,by", options.adapt_by,
+  if (options.run.adapt.by != "HYBRID" && options.run.adapt.by != hybrid)
+    refuse("--degree=" + text + " with --adapt=...,by", options.run.adapt.by,
            "one of both, or by=" + hybrid);
-  options.degree = degree;
-  options.adapt_by = hybrid;
-  if (!is_given) options.methods = hybrid;
+  options.run.degree = degree;
+  options.run.adapt.by = hybrid;
+  if (!is_given) options.run.methods = hybrid;
 }
 
 void read_fields(const std::string& text, Options& options) {
-  options.fields = true;
+  options.run.cases.fields = true;
   for (const std::string& word : split_list(text))
     if (word == "mean")
-      options.mean_fields = true;
+      options.run.cases.mean_fields = true;
     else if (word == "histories")
-      options.histories = true;
+      options.run.cases.histories = true;
     else if (word != "true")
       refuse("--fields", word, "mean, histories, or no value");
 }
 
 // In the scaling study at most the number of processors: beyond it, efficiency means nothing.
 void read_threads(const std::string& text, bool is_given, Options& options) {
-  const bool scaling = options.study.points == Study::Points::threads;
+  const bool scaling = options.run.study.points == Study::Points::threads;
   const int processors = processors_at_hand();
   std::set<int> counts = {1};
   if (scaling && !is_given) {
@@ -304,30 +309,30 @@ void read_threads(const std::string& text, bool is_given, Options& options) {
                      : fmt::format("a whole number from 1 to {}; a list with --study=scaling",
                                    most_threads));
     counts.insert(static_cast<int>(*count));
-    options.threads = static_cast<int>(*count);
+    options.run.cases.threads = static_cast<int>(*count);
   }
   if (!scaling) return;
-  options.thread_counts.assign(counts.begin(), counts.end());
-  options.threads = options.thread_counts.back();
+  options.run.thread_counts.assign(counts.begin(), counts.end());
+  options.run.cases.threads = options.run.thread_counts.back();
 }
 
 void refuse_contradictions(const Options& options) {
   using enum Study::Points;
-  const bool paper = options.stop == Stop::paper;
-  const Study& study = options.study;
+  const bool paper = options.run.cases.stop == Stop::paper;
+  const Study& study = options.run.study;
   const std::string chosen = "not with --study=" + study.name;
   const std::pair<bool, std::string> rules[] = {
-      {options.contact && paper,
+      {options.run.cases.contact && paper,
        "--contact: not with --stop=paper, whose contact law is gauss-seidel"},
-      {options.contact && study.points == contact,
+      {options.run.cases.contact && study.points == contact,
        "--contact: " + chosen + ", which has all of them"},
       {paper && study.points == accuracy,
        "--stop=paper: " + chosen + ", which has the paper's stop as a point"},
       {paper && study.points == contact,
        "--stop=paper: " + chosen + ", whose solvers are not the paper's"},
-      {options.precision && study.once,
+      {options.limits.precision && study.once,
        "--repetitions: precision: " + chosen + ", which times each case once"},
-      {options.interleave && study.points == threads,
+      {options.limits.interleave && study.points == threads,
        "--interleave: " + chosen +
            ": BLAS's idle threads of one case are awake in another's time"}};
   for (const auto& [is_broken, message] : rules)
@@ -357,30 +362,30 @@ Options parse_options(int argc, const char* const* argv) {
 
   const auto given = [&](const char* option) { return app.get_option(option)->count() > 0; };
   for (const char* of_bodies : {"--mesh", "--scene", "--figure", "--adapt", "--fields"})
-    if (!options.problems.empty() && given(of_bodies))
+    if (!options.run.problems.empty() && given(of_bodies))
       throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
   read_study(options.check.empty() ? texts.study : "check", options);
-  if (!options.problems.empty() && given("--study") &&
-      options.study.points != Study::Points::contact)
+  if (!options.run.problems.empty() && given("--study") &&
+      options.run.study.points != Study::Points::contact)
     throw UsageError("--study: not with --problem, which has no body (allowed: contact)");
-  for (const auto& [name, value] : options.study.options) {
+  for (const auto& [name, value] : options.run.study.options) {
     try {
       if (given(name.c_str())) continue;
       app.get_option(name)->add_result(value);
       app.get_option(name)->run_callback();
     } catch (const CLI::Error& wrong) {
-      throw UsageError(fmt::format("--study: the options of {}: {}", options.study.name,
+      throw UsageError(fmt::format("--study: the options of {}: {}", options.run.study.name,
                                    shortened(wrong.what(), 300)));
     }
   }
-  options.stop = *stop_of(texts.stop);
-  if (given("--contact")) options.contact = contact_solver_of(texts.contact);
+  options.run.cases.stop = *stop_of(texts.stop);
+  if (given("--contact")) options.run.cases.contact = contact_solver_of(texts.contact);
   read_repetitions(texts.repetitions, options);
   if (given("--retry-noisy")) {
     constexpr double most_noise = 0.05;  // as in machine_warnings()
-    options.retry_noisy = texts.noise == "true"
-                              ? most_noise
-                              : share_of("--retry-noisy", texts.noise, "as 5%, or no value");
+    options.limits.retry_noisy = texts.noise == "true"
+                                     ? most_noise
+                                     : share_of("--retry-noisy", texts.noise, "as 5%, or no value");
   }
   read_threads(texts.threads, given("--threads"), options);
   read_timeout(texts.timeout, given("--timeout"), options);
@@ -389,11 +394,11 @@ Options parse_options(int argc, const char* const* argv) {
   if (!texts.shard.empty()) {
     const std::optional<Shard> part = shard_of(texts.shard);
     if (!part) refuse("--shard", texts.shard, "k/n with 1 <= k <= n");
-    options.shard = *part;
+    options.run.shard = *part;
   }
   if (given("--fields")) read_fields(texts.fields, options);
   refuse_contradictions(options);
-  if (options.study.once) options.repetitions = 1;
+  if (options.run.study.once) options.limits.repetitions = 1;
   return options;
 }
 

@@ -30,7 +30,8 @@ namespace fs = std::filesystem;
 
 std::vector<SceneFile> read_scenes(const Options& options) {
   std::vector<SceneFile> scenes;
-  for (const fs::path& file : options.scenes.empty() ? scenes_of(options.study) : options.scenes) {
+  for (const fs::path& file :
+       options.run.scenes.empty() ? scenes_of(options.run.study) : options.run.scenes) {
     SceneFile added = read_scene_file(file);
     const Scene& scene = added.scene;
     for (const SceneFile& other : scenes)
@@ -111,7 +112,7 @@ std::vector<fs::path> problem_files_of(const std::vector<fs::path>& given) {
 
 std::vector<PosedScene> posed_problems(const Options& options) {
   std::vector<PosedScene> posed;
-  for (const fs::path& file : problem_files_of(options.problems)) {
+  for (const fs::path& file : problem_files_of(options.run.problems)) {
     auto problem = std::make_shared<const contact::Problem>(read_contact_problem(file));
     const auto same = [&](const PosedScene& p) { return mesh_name_of(p.problem) == problem->name; };
     if (!is_name(problem->name) || std::ranges::any_of(posed, same))
@@ -119,8 +120,8 @@ std::vector<PosedScene> posed_problems(const Options& options) {
           fmt::format("--problem: {} (allowed: problems whose names differ, in UTF-8 without "
                       "control characters: of their case, or else of their file)",
                       shortened(file.string())));
-    posed.push_back({"fclib", "", recorded_path(file, options.out), sha256_of_file(file), "{}",
-                     std::move(problem)});
+    posed.push_back({"fclib", "", recorded_path(file, options.output.folder), sha256_of_file(file),
+                     "{}", std::move(problem)});
   }
   return posed;
 }
@@ -171,21 +172,22 @@ std::string picture_line(const RunResult& result, const fs::path& out, bool has_
 }  // namespace
 
 std::vector<PosedScene> posed_scenes(const Options& options) {
-  if (!options.problems.empty()) return posed_problems(options);
+  if (!options.run.problems.empty()) return posed_problems(options);
   const std::vector<SceneFile> scenes = read_scenes(options);
-  const SignsOfLife signs("reading " + shortened(options.meshes));
+  const SignsOfLife signs("reading " + shortened(options.run.meshes));
   std::vector<PosedScene> posed;
   std::map<std::vector<std::string>, std::vector<MeshFile>> meshes;  // by the scenes' settings
   for (const SceneFile& given : scenes)
     if (const auto& settings = given.model_settings; !meshes.contains(settings))
-      meshes.emplace(settings, read_meshes(options, settings));
+      meshes.emplace(settings, read_meshes(options.run, options.output.folder, settings));
   for (std::size_t k = 0; k < meshes.begin()->second.size(); ++k)
     for (const SceneFile& given : scenes) {
       const MeshFile& file = meshes.at(given.model_settings)[k];
       const auto& [scene, definition, settings] =
           is_of_catalogue(file.path) ? given : on_other_bodies(given);
-      posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
-                       definition, std::make_shared<const Problem>(pose(scene, file.mesh))});
+      posed.push_back({scene.name, scene.group, recorded_path(file.path, options.output.folder),
+                       file.sha256, definition,
+                       std::make_shared<const Problem>(pose(scene, file.mesh))});
       note_out_of_reach(posed.back());
       note_matching(posed.back());
       if (!is_of_catalogue(file.path)) {
@@ -201,8 +203,8 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
 PosedScene one_posed_scene(const Options& options) {
   std::vector<PosedScene> posed = posed_scenes(options);
   if (posed.size() != 1)
-    throw UsageError(fmt::format("--mesh: {}: {} meshes (allowed: one)", shortened(options.meshes),
-                                 posed.size()));
+    throw UsageError(fmt::format("--mesh: {}: {} meshes (allowed: one)",
+                                 shortened(options.run.meshes), posed.size()));
   return std::move(posed.front());
 }
 

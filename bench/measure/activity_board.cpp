@@ -32,9 +32,9 @@ bool is_run(Activity activity) {
          activity == Activity::memory_run || activity == Activity::timed_run;
 }
 
-double run_limit_s(Activity run, const Options& options) {
-  return run == Activity::tuning ? options.tuning_budget_s.value_or(options.timeout_s)
-                                 : options.timeout_s;
+double run_limit_s(Activity run, const Limits& limits) {
+  return run == Activity::tuning ? limits.tuning_budget_s.value_or(limits.timeout_s)
+                                 : limits.timeout_s;
 }
 
 ActivityBoard::ActivityBoard() {

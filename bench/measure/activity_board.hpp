@@ -27,7 +27,7 @@ std::string_view name_of(Activity activity);  // "detail run"
 bool is_run(Activity activity);               // of the method itself: tuning and the three runs
 
 // --timeout, or for tuning its budget if there is one.
-double run_limit_s(Activity run, const Options& options);
+double run_limit_s(Activity run, const Limits& limits);
 
 class ActivityBoard : public StageObserver {
  public:

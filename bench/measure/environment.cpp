@@ -104,34 +104,36 @@ Context describe_environment(int threads) {
 }
 
 Context context_of_run(const Options& options) {
-  Context context = describe_environment(options.threads);
+  const RunSettings& run = options.run;
+  const Limits& limits = options.limits;
+  Context context = describe_environment(run.cases.threads);
   const auto set = [&](const char* key, const auto& value) {
     context[key] = fmt::format("{}", value);
   };
   const auto set_if_any = [&](const char* key, const auto& value) {
     if (value) set(key, *value);
   };
-  set("target_error", options.target_error);
-  set("timeout_s", options.timeout_s);
-  set("long_case_s", options.long_case_s);
-  set("repetitions", options.repetitions);
-  set("interleaved", options.interleave ? "yes" : "no");
+  set("target_error", run.cases.target_error);
+  set("timeout_s", limits.timeout_s);
+  set("long_case_s", limits.long_case_s);
+  set("repetitions", limits.repetitions);
+  set("interleaved", limits.interleave ? "yes" : "no");
   set("memory_limit_bytes", "none");
-  set_if_any("memory_limit_bytes", options.memory_limit_bytes);
-  set_if_any("tuning_budget_s", options.tuning_budget_s);
+  set_if_any("memory_limit_bytes", limits.memory_limit_bytes);
+  set_if_any("tuning_budget_s", limits.tuning_budget_s);
   const auto list = [](const auto& values) { return fmt::format("{}", fmt::join(values, ",")); };
-  if (!options.budgets_s.empty()) set("budgets_s", list(options.budgets_s));
-  if (options.study.points == Study::Points::threads) set("threads", list(options.thread_counts));
-  set_if_any("precision", options.precision);
-  if (options.precision) set("max_repetitions", options.max_repetitions);
-  set_if_any("retry_noisy", options.retry_noisy);
-  if (!options.adapt.empty()) {
-    set("adapt", text_of(options.adapt));
-    set_if_any("marking", options.marking);
-    set("adapt_by", options.adapt_by);
+  if (!run.budgets_s.empty()) set("budgets_s", list(run.budgets_s));
+  if (run.study.points == Study::Points::threads) set("threads", list(run.thread_counts));
+  set_if_any("precision", limits.precision);
+  if (limits.precision) set("max_repetitions", limits.max_repetitions);
+  set_if_any("retry_noisy", limits.retry_noisy);
+  if (!run.adapt.goals.empty()) {
+    set("adapt", text_of(run.adapt.goals));
+    set_if_any("marking", run.adapt.marking);
+    set("adapt_by", run.adapt.by);
   }
-  if (options.shard.count > 1) set("shard", name_of(options.shard));
-  for (const auto& [key, value] : options.own_context) {
+  if (run.shard.count > 1) set("shard", name_of(run.shard));
+  for (const auto& [key, value] : options.output.context) {
     constexpr std::array words_of_the_plan = {"shard", "cases_planned", "plan_sha256"};
     if (context.contains(key) ||
         std::ranges::find(words_of_the_plan, key) != words_of_the_plan.end())

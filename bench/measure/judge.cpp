@@ -10,10 +10,10 @@
 
 namespace airybench {
 
-Judge::Judge(const PosedProblem& problem, const Options& options, const LeftOut& left_out)
+Judge::Judge(const PosedProblem& problem, const CaseSettings& common, const LeftOut& left_out)
     : problem_(held<Problem>(problem)),
       contact_problem_(held<contact::Problem>(problem)),
-      options_(options),
+      common_(common),
       discretisation_left_out_(left_out.discretisation) {
   no_references_ = problem_ ? left_out.reference : "a problem without a body";
   if (no_references_.empty() && is_too_large_for_reference())
@@ -73,7 +73,7 @@ JudgedStep Judge::judged(const std::vector<JudgedStep>& before, const DualSystem
     const double energy_norm = std::sqrt(2 * result.verification.strain_energy_Nmm);
     result.verification.unstressed =
         reference(1, step) != nullptr && reference(1, step)->stress.values().isZero(0) &&
-        energy_norm <= options_.target_error * load_scale(*system.problem).energy_norm;
+        energy_norm <= common_.target_error * load_scale(*system.problem).energy_norm;
     result.displacement = solution.displacement;
   }
   return result;
@@ -89,11 +89,11 @@ std::optional<Verification> Judge::verify_as_other_solution(const DualSystem& sy
                                                             const Solution& solution,
                                                             const Verification& v,
                                                             double start_off_N) {
-  const auto is_small = [&](double error) { return error <= options_.target_error; };
+  const auto is_small = [&](double error) { return error <= common_.target_error; };
   // Only forces that meet the law with the reference's D and G, but differ from its forces.
   // A step that starts from a wrong slip meets the law of another problem.
   if (is_small(worst_measure(v).value) || !v.friction_coupling ||
-      !(start_off_N <= options_.target_error * solution.F_C.norm()) ||
+      !(start_off_N <= common_.target_error * solution.F_C.norm()) ||
       !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
     return {};
   try {
@@ -107,14 +107,14 @@ std::optional<Verification> Judge::verify_as_other_solution(const DualSystem& sy
   }
 }
 
-void Judge::judge(const Method& method, const std::vector<JudgedStep>& steps,
-                  const Solution& solution, Record& record) {
+void Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps, const Solution& solution,
+                  Record& record) {
   take_over(steps.back().seen(), record);
   record.answer_hash = answer_hash(steps.back().seen());
-  if (record.status == Status::ok) judge_method_error(method, steps, solution, record);
+  if (record.status == Status::ok) judge_method_error(asked, steps, solution, record);
   if (record.status == Status::ok && solution.program)
     judge_penetration(steps, solution.program->allowed_penetration, record);
-  if (problem_) judge_discretisation(method, steps, solution, record);
+  if (problem_) judge_discretisation(asked.method, steps, solution, record);
 }
 
 void Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
@@ -130,8 +130,9 @@ void Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allow
       100 * *v.penetration_share, 100 * allowed);
 }
 
-void Judge::judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,
+void Judge::judge_method_error(const Case& asked, const std::vector<JudgedStep>& steps,
                                const Solution& solution, Record& record) {
+  const Method& method = asked.method;
   const auto give = [&](Status status, const std::string& reason) {
     record.status = status;
     record.status_reason = reason;
@@ -144,7 +145,7 @@ void Judge::judge_method_error(const Method& method, const std::vector<JudgedSte
   const WorstMeasure worst = worst_measure(steps[at].seen());
   const auto other =
       std::ranges::find_if(steps, [](const JudgedStep& step) { return step.as_other.has_value(); });
-  const double target = method.target_error.value_or(options_.target_error);
+  const double target = asked.settings.target_error;
   if (!(worst.value <= target)) {
     give(Status::inaccurate,
          fmt::format("{}{} {:.2e} is above the target {:.0e}",

@@ -20,7 +20,8 @@ struct LeftOut {
 
 class Judge {
  public:
-  Judge(const PosedProblem& problem, const Options& options, const LeftOut& left_out);
+  // common: of the problem's cases; what they share decides on reference and total error.
+  Judge(const PosedProblem& problem, const CaseSettings& common, const LeftOut& left_out);
 
   void show_on(ActivityBoard* board) { board_ = board; }
   void prepare(const Method& method);
@@ -34,15 +35,15 @@ class Judge {
                     const Solution& solution);
   JudgedStep judged(const AssembledBlocks& blocks, const Solution& solution);  // without a path
   // The status may become worse; steps: of the whole path.
-  void judge(const Method& method, const std::vector<JudgedStep>& steps, const Solution& solution,
+  void judge(const Case& asked, const std::vector<JudgedStep>& steps, const Solution& solution,
              Record& record);
   void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
                        const Record& record, const std::filesystem::path& file);
 
  private:
   // Discretisation error of the reference's stresses with the displacements of P2, P3, …, one
-  // degree more than theirs, or of the stresses of adapt_by or, for another degree, HYBRID with
-  // displacements recovered from them.
+  // degree more than theirs, or of the stresses of CaseSettings::stresses_by or, for another
+  // degree, HYBRID with displacements recovered from them.
   enum class Bound { displacement, recovery };
   struct Discretisation {
     TotalError total;
@@ -54,7 +55,7 @@ class Judge {
   };
 
   bool is_too_large_for_reference() const;
-  double reference_error_at_most() const { return options_.target_error / 10; }
+  double reference_error_at_most() const { return common_.target_error / 10; }
   // References belong to a degree of the stresses.
   const ReferencePath& references(int degree);
   const Reference* reference(int degree, int step = 0);  // null: references().missing says why
@@ -71,7 +72,7 @@ class Judge {
   // Of an external program: through the wall by more than it is allowed is inaccurate.
   void judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
                          Record& record) const;
-  void judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,
+  void judge_method_error(const Case& asked, const std::vector<JudgedStep>& steps,
                           const Solution& solution, Record& record);
 
   std::optional<Bound> bound_for(const Method& method) const;  // none: it has its own
@@ -90,7 +91,7 @@ class Judge {
 
   std::shared_ptr<const Problem> problem_;                   // null: there is no body
   std::shared_ptr<const contact::Problem> contact_problem_;  // null if there is a body
-  const Options& options_;
+  const CaseSettings common_;
   std::string discretisation_left_out_;
   ActivityBoard* board_ = nullptr;
   std::string no_references_;  // why; empty: they can be had

@@ -15,14 +15,12 @@ namespace airybench {
 
 std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
   if (method.in_displacements && !method.program.empty()) return {};  // it has its own
-  const bool of_accuracy = options_.study.points == Study::Points::accuracy;
-  return method.in_displacements || (of_accuracy && method.degree == 1) ? Bound::displacement
-                                                                        : Bound::recovery;
+  return method.in_displacements || (common_.error_of_displacements && method.degree == 1)
+             ? Bound::displacement
+             : Bound::recovery;
 }
 
-bool Judge::wants_intervals(int degree) const {
-  return degree > 1 || !options_.adapt.empty() || options_.fields || options_.study.intervals;
-}
+bool Judge::wants_intervals(int degree) const { return degree > 1 || common_.intervals; }
 
 const Judge::Discretisation* Judge::discretisation(Bound bound, int degree) {
   const auto [found, is_new] = discretisation_.try_emplace({bound, degree});
@@ -84,7 +82,7 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
     Eigen::VectorXd free_motion_mm;
   };
   std::vector<OwnDisplacement> own_u;
-  Method method = select_methods(options_.adapt_by).front();
+  Method method = select_methods(common_.stresses_by).front();
   if (method.degree != degree) method = select_methods(hybrid_of_degree(degree)).front();
   Solve solve = method.solve;
   if (bound == Bound::displacement) {
@@ -230,7 +228,7 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
     fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
-    if (options_.mean_fields)
+    if (common_.mean_fields)
       fields.mean = mean_stress(
           *problem_,
           method.in_displacements ? references(method.degree).steps.back().stress : solution.stress,

@@ -17,14 +17,20 @@ namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
 
+// The harness looks for the tolerance of the method.
+bool is_tightened(const Method& method, const CaseSettings& settings) {
+  return method.is_tightened() && settings.tightened;
+}
+
 }  // namespace
 
-Workbench::Workbench(PosedProblem problem, const Options& options, const LeftOut& left_out)
+Workbench::Workbench(PosedProblem problem, const CaseSettings& common, const Limits& limits,
+                     const LeftOut& left_out)
     : posed_(std::move(problem)),
       problem_(held<Problem>(posed_)),
       contact_problem_(held<contact::Problem>(posed_)),
-      options_(options),
-      judge_(posed_, options, left_out) {}
+      limits_(limits),
+      judge_(posed_, common, left_out) {}
 
 void Workbench::show_on(ActivityBoard* board) {
   board_ = board;
@@ -46,16 +52,16 @@ const AssembledBlocks& Workbench::blocks(const Method& method) {
   if (found == blocks_.end()) {
     const ActivityScope scope(board_, Activity::assembly);
     found =
-        blocks_.emplace(which, assemble_and_measure(problem_, method, options_.repetitions)).first;
+        blocks_.emplace(which, assemble_and_measure(problem_, method, limits_.repetitions)).first;
   }
   return found->second;
 }
 
-Workbench::Examination Workbench::examine(const Method& method,
-                                          const std::filesystem::path& fields) {
+Workbench::Examination Workbench::examine(const Case& asked, const std::filesystem::path& fields) {
+  const Method& method = asked.method;
   Examination examination;
   auto& [record, choice, program_log] = examination;
-  record = blank_record(posed_, method, options_);
+  record = blank_record(asked, limits_);
   try {
     take_over(blocks(method), record);
   } catch (const std::bad_alloc&) {
@@ -68,19 +74,19 @@ Workbench::Examination Workbench::examine(const Method& method,
     return examination;
   }
   const AssembledBlocks& assembled = blocks(method);
-  choice = choose(method, assembled, record);
+  choice = choose(asked, assembled, record);
   Run run = tighten(method, assembled, choice, record);
   Solution& solution = run.solution;
-  note_run(run, choice, record);
+  note_run(method, run, choice, record);
   if (solution.program) program_log = std::move(solution.program->log);
   if (judge_.is_answered(solution)) {
     verify_run(assembled, run);
-    judge_.judge(method, run.judged, solution, record);
+    judge_.judge(asked, run.judged, solution, record);
   }
   if (!fields.empty() && problem_) write_fields(method, choice, assembled, run, record, fields);
   // The detail run of a path judges between its steps, which takes memory.
   const bool once =
-      record.load_steps == 1 && (run.time_s > options_.long_case_s || options_.study.once);
+      record.load_steps == 1 && (run.time_s > limits_.long_case_s || asked.settings.timed_once);
   if (once && is_measured(record)) {
     record.measured_once = true;
     add_run(timed(run), record);
@@ -101,14 +107,15 @@ TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
   return timed(solve(choice, blocks(method), Activity::timed_run));
 }
 
-Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks& blocks,
+Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& blocks,
                                     Record& record) {
-  Choice choice{method.solve, 0, method.solve_contact};
-  if (method.is_tightened()) {
-    choice.tolerance = options_.stop == Stop::paper
-                           ? method.paper_tolerance
-                           : std::max(tightest, method.first_tolerance * options_.target_error);
-  }
+  const Method& method = asked.method;
+  Choice choice{method.solve, method.solve_contact, asked.settings};
+  CaseSettings& settings = choice.settings;
+  if (is_tightened(method, settings))
+    settings.tolerance = settings.stop == Stop::paper
+                             ? method.paper_tolerance
+                             : std::max(tightest, method.first_tolerance * settings.target_error);
   if (!method.tune) return choice;
   Tuning tuning;
   const auto tune = [&](const DualSystem& system, const RunControl& control) {
@@ -117,7 +124,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
     none.status = Status::skipped;
     return none;
   };
-  const Run tuned = solve({tune, choice.tolerance}, blocks, Activity::tuning);
+  const Run tuned = solve({tune, {}, settings}, blocks, Activity::tuning);
   record.tuning_s = tuned.time_s;
   for (const GridPoint& point : tuning.grid)
     record.grid.push_back({{"r", point.r},
@@ -144,7 +151,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
 // Records the claimed and the true error of a tolerance; the method never sees the true one.
 void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run,
                              Record& record) {
-  Json attempt = {{"tolerance", choice.tolerance},
+  Json attempt = {{"tolerance", *choice.settings.tolerance},
                   {"claimed_status", name_of(run.solution.status)}};
   if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
   if (judge_.is_answered(run.solution) && judge_.knows_errors(blocks)) {
@@ -159,48 +166,54 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
   constexpr int most_attempts = 6;
   std::optional<Run> finished;  // the last answer, not accurate enough
   double finished_with = 0;
+  const CaseSettings& asked = choice.settings;
   for (int attempt = 1;; ++attempt) {
     malloc_trim(0);  // memory that earlier runs freed must not count
     Run run = solve(choice, assembled, Activity::detail_run);
     const Solution& solution = run.solution;
     if (finished && !has_answer(solution.status)) {  // the earlier answer is better than none
       record.tuning_s = *record.tuning_s - finished->time_s + run.time_s;
-      choice.tolerance = finished_with;
+      choice.settings.tolerance = finished_with;
       return std::move(*finished);
     }
-    if (!method.is_tightened()) return run;
+    if (!is_tightened(method, asked)) return run;
     note_attempt(choice, assembled, run, record);
     const double estimate = solution.error_estimate.value_or(0);
-    if (options_.stop == Stop::paper || !has_answer(solution.status) ||
-        solution.status == Status::ok || attempt == most_attempts || choice.tolerance <= tightest)
+    double tolerance = *asked.tolerance;
+    if (asked.stop == Stop::paper || !has_answer(solution.status) ||
+        solution.status == Status::ok || attempt == most_attempts || tolerance <= tightest)
       return run;
     const double searched_s = record.tuning_s.value_or(0) + run.time_s;
-    if (options_.tuning_budget_s && searched_s >= *options_.tuning_budget_s) {
+    if (limits_.tuning_budget_s && searched_s >= *limits_.tuning_budget_s) {
       record.tuning_cut = true;
       return run;
     }
     record.tuning_s = searched_s;
-    finished_with = choice.tolerance;
+    finished_with = tolerance;
     // Errors are about proportional to the tolerance; 3 is a safety factor.
-    const double factor = options_.target_error / estimate / 3;
-    choice.tolerance *= std::isfinite(factor) ? std::clamp(factor, 1e-3, 0.3) : 0.1;
-    choice.tolerance = std::max(tightest, choice.tolerance);
+    const double factor = asked.target_error / estimate / 3;
+    tolerance *= std::isfinite(factor) ? std::clamp(factor, 1e-3, 0.3) : 0.1;
+    choice.settings.tolerance = std::max(tightest, tolerance);
     finished = std::move(run);
   }
 }
 
-RunControl Workbench::control_of(const Choice& choice, Activity what) const {
+RunControl Workbench::control_of(const CaseSettings& settings, Activity what) const {
   const bool in_detail = what == Activity::detail_run;
   RunControl control;
-  control.deadline = Deadline::after(run_limit_s(what, options_));
+  control.deadline = Deadline::after(run_limit_s(what, limits_));
   control.histories = in_detail;
-  control.threads = options_.threads;
-  control.stop = options_.stop;
-  control.contact.solver = options_.contact.value_or(control.contact.solver);
-  control.target_error = options_.target_error;
-  control.condition = in_detail && options_.study.condition;
-  control.tolerance = choice.tolerance;
-  control.contact.acceptable = std::max(control.contact.tolerance, options_.target_error / 1000);
+  control.condition = in_detail && settings.condition;
+  control.threads = settings.threads;
+  control.stop = settings.stop;
+  control.target_error = settings.target_error;
+  control.tolerance = settings.tolerance.value_or(0);
+  control.most_iterations = settings.max_iterations;
+  ContactOptions& contact = control.contact;
+  contact.solver = settings.contact.value_or(contact.solver);
+  contact.tolerance = settings.contact_tolerance.value_or(contact.tolerance);
+  contact.acceptable = std::max(contact.tolerance, settings.target_error / 1000);
+  contact.most_iterations = settings.max_contact_iterations.value_or(contact.most_iterations);
   return control;
 }
 
@@ -209,7 +222,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   const bool in_detail = what == Activity::detail_run;
   if (problem_ && blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
   const ActivityScope scope(board_, what);
-  const RunControl control = control_of(choice, what);
+  const RunControl control = control_of(choice.settings, what);
   const bool rss_is_reset = rss::reset_peak();
   const std::int64_t of_blocks = blocks.blocks_heap_bytes.value_or(0);
   const MemoryWatch watch(of_blocks);
@@ -228,7 +241,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   bool refused = false;
   try {
     std::optional<heap::Limit> limit;
-    if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
+    if (limits_.memory_limit_bytes) limit.emplace(limit_base + *limits_.memory_limit_bytes);
     result.solution = contact_problem_ ? run(choice.solve_contact, *contact_problem_, control)
                       : what == Activity::tuning
                           ? run(choice.solve, *blocks.system, control)
@@ -276,7 +289,7 @@ void Workbench::write_fields(const Method& method, const Choice& choice,
   const ActivityScope scope(board_, Activity::discretisation);
   double watched_s = 0;
   solve_path(
-      choice.solve, *blocks.system, control_of(choice, Activity::detail_run),
+      choice.solve, *blocks.system, control_of(choice.settings, Activity::detail_run),
       [&](int step, const DualSystem& posed, const Solution& answer) {
         const auto k = static_cast<std::size_t>(step);
         if (answer.stress.empty() || k >= run.judged.size()) return;
@@ -287,13 +300,15 @@ void Workbench::write_fields(const Method& method, const Choice& choice,
       watched_s);
 }
 
-void Workbench::note_run(const Run& run, const Choice& choice, Record& record) const {
+void Workbench::note_run(const Method& method, const Run& run, const Choice& choice,
+                         Record& record) {
   const Solution& solution = run.solution;
   note(solution, record);
-  if (choice.tolerance > 0) record.tolerance = choice.tolerance;
+  if (is_tightened(method, choice.settings) && choice.settings.tolerance > 0)
+    record.tolerance = choice.settings.tolerance;
   if (record.tuning_cut && record.status != Status::ok)
     record.status_reason += "; the search was cut: see tuning_cut";
-  if (options_.histories)
+  if (choice.settings.histories)
     for (const IterationHistory& history : solution.histories)
       record.histories[history.what] = history.residual;
   if (solution.done_fraction) {  // timeout in the solve itself: a lower bound

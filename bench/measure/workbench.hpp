@@ -14,15 +14,18 @@ inline BlocksKey blocks_key(const Method& method) { return {method.blocks, metho
 
 class Workbench {
  public:
-  Workbench(PosedProblem problem, const Options& options, const LeftOut& left_out = {});
+  // common: what the problem's cases are all asked (Judge). limits must outlive the object.
+  Workbench(PosedProblem problem, const CaseSettings& common, const Limits& limits,
+            const LeftOut& left_out = {});
 
   void show_on(ActivityBoard* board);
   void prepare(const Method& method);
 
+  // What is run: with the parameters and the tolerance that were found.
   struct Choice {
     Solve solve;
-    double tolerance = 0;
     SolveContact solve_contact = {};
+    CaseSettings settings = {};
   };
   struct Examination {
     Record record;
@@ -31,7 +34,7 @@ class Workbench {
   };
   // Repeats an iterative method with tighter tolerances until its own error estimate is below the
   // target; the judge has no say in that. fields: file for the solution's fields, or empty.
-  Examination examine(const Method& method, const std::filesystem::path& fields);
+  Examination examine(const Case& asked, const std::filesystem::path& fields);
   void measure_memory(const Method& method, const Choice& choice, Record& record);
   TimedRun measure_time(const Method& method, const Choice& choice);
 
@@ -44,10 +47,10 @@ class Workbench {
     std::vector<JudgedStep> judged;  // if asked for; of a path every step that it reached
   };
   const AssembledBlocks& blocks(const Method& method);
-  RunControl control_of(const Choice& choice, Activity what) const;
+  RunControl control_of(const CaseSettings& settings, Activity what) const;
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
-  Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
-  // Returns the run that meets the target, or the last; sets choice.tolerance to match.
+  Choice choose(const Case& asked, const AssembledBlocks& blocks, Record& record);
+  // Returns the run that meets the target, or the last; sets the choice's tolerance to match.
   Run tighten(const Method& method, const AssembledBlocks& assembled, Choice& choice,
               Record& record);
   void note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run, Record& record);
@@ -55,14 +58,14 @@ class Workbench {
   // Those of load steps by one more run, which is not measured.
   void write_fields(const Method& method, const Choice& choice, const AssembledBlocks& blocks,
                     const Run& run, Record& record, const std::filesystem::path& file);
-  void note_run(const Run& run, const Choice& choice, Record& record) const;
+  static void note_run(const Method& method, const Run& run, const Choice& choice, Record& record);
   static void note_memory(const Run& run, Record& record);
   static TimedRun timed(const Run& run);
 
   PosedProblem posed_;
   std::shared_ptr<const Problem> problem_;                   // null: there is no body
   std::shared_ptr<const contact::Problem> contact_problem_;  // null if there is a body
-  const Options& options_;
+  const Limits& limits_;
   Judge judge_;
   ActivityBoard* board_ = nullptr;
   std::map<BlocksKey, AssembledBlocks> blocks_;

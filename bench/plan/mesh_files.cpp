@@ -88,7 +88,7 @@ std::string said_of_model(const std::string& mode, const std::filesystem::path& 
 
 using Settings = std::vector<std::string>;
 
-MeshFile converted(const std::filesystem::path& model, const Options& options,
+MeshFile converted(const std::filesystem::path& model, const std::filesystem::path& out,
                    const Settings& settings) {
   constexpr std::size_t digits = 8;
   std::istringstream in(said_of_model("--convert", model, settings));
@@ -97,8 +97,7 @@ MeshFile converted(const std::filesystem::path& model, const Options& options,
   check_name(file.mesh, model);
   file.sha256 = sha256_hex(msh_text(file.mesh));
   const std::string& name = file.mesh.name;
-  file.path =
-      options.out / "meshes" / (name + "." + file.sha256.substr(0, digits)) / (name + ".msh");
+  file.path = out / "meshes" / (name + "." + file.sha256.substr(0, digits)) / (name + ".msh");
   return file;
 }
 
@@ -117,14 +116,14 @@ bool changes_any_mesh(const std::string& setting) {
          setting.starts_with(length_unit_setting.option);
 }
 
-MeshFile read_or_convert(const std::filesystem::path& path, const Options& options,
+MeshFile read_or_convert(const std::filesystem::path& path, const std::filesystem::path& out,
                          const Settings& settings) {
   const ModelFormat format = format_of(path);
   const bool is_msh =
       (format == ModelFormat::msh || format == ModelFormat::other) && !is_gzipped(path);
   const bool is_as_it_is =
       is_of_catalogue(path) || std::ranges::none_of(settings, changes_any_mesh);
-  if (!is_msh || !is_as_it_is) return converted(path, options, settings);
+  if (!is_msh || !is_as_it_is) return converted(path, out, settings);
   try {
     MeshFile file = read_mesh_file(path);
     if (file.straightened.count > 0)
@@ -133,7 +132,7 @@ MeshFile read_or_convert(const std::filesystem::path& path, const Options& optio
   } catch (const ForeignMeshError&) {
     if (!converter_program() || is_of_catalogue(path)) throw;
   }
-  return converted(path, options, settings);
+  return converted(path, out, settings);
 }
 
 }  // namespace
@@ -148,14 +147,15 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   return {path, sha256_of_file(path), std::move(mesh), false, straightened};
 }
 
-std::vector<MeshFile> read_meshes(const Options& options, const Settings& of_scene) {
-  Settings settings = options.model_settings;
+std::vector<MeshFile> read_meshes(const RunSettings& run, const std::filesystem::path& out,
+                                  const Settings& of_scene) {
+  Settings settings = run.model_settings;
   settings.insert(settings.end(), of_scene.begin(), of_scene.end());
   std::vector<MeshFile> files;
-  for (const std::string& item : expand_mesh_selection(options.meshes)) {
+  for (const std::string& item : expand_mesh_selection(run.meshes)) {
     const std::filesystem::path path =
         is_mesh_file(item) ? std::filesystem::path(item) : mesh_directory() / (item + ".msh");
-    MeshFile file = read_or_convert(path, options, settings);
+    MeshFile file = read_or_convert(path, out, settings);
     for (const MeshFile& earlier : files)
       if (earlier.mesh.name == file.mesh.name)
         throw std::invalid_argument("two meshes are named " + file.mesh.name + ": " +
@@ -170,8 +170,8 @@ std::vector<MeshFile> read_meshes(const Options& options, const Settings& of_sce
   return files;
 }
 
-std::string curves_of_model(const std::filesystem::path& model, const Options& options) {
-  return said_of_model("--show", model, options.model_settings);
+std::string curves_of_model(const std::filesystem::path& model, const Settings& settings) {
+  return said_of_model("--show", model, settings);
 }
 
 bool is_of_catalogue(const std::filesystem::path& file) {

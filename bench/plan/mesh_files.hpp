@@ -25,14 +25,15 @@ std::filesystem::path mesh_directory();  // $AIRYBENCH_MESH_DIR, else the progra
 // MeshError, or std::invalid_argument if the file name is not a valid mesh name.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
-// Reads options.meshes; meshgen converts models and foreign MSH files, by the options' and these
-// settings. Throws MeshError, FileError, or std::invalid_argument (two meshes have one name; the
-// options have model settings, but there is no model).
-std::vector<MeshFile> read_meshes(const Options& options,
+// Reads the run's meshes; meshgen converts models and foreign MSH files, by the run's and these
+// settings; out: the results folder, where keep_models() writes them. Throws MeshError, FileError,
+// or std::invalid_argument (two meshes have one name; there are settings, but there is no model).
+std::vector<MeshFile> read_meshes(const RunSettings& run, const std::filesystem::path& out,
                                   const std::vector<std::string>& settings = {});
 
-// What `meshgen --show=MODEL --out=-` writes, with the options' model settings. Throws FileError.
-std::string curves_of_model(const std::filesystem::path& model, const Options& options);
+// What `meshgen --show=MODEL --out=-` writes, with these settings. Throws FileError.
+std::string curves_of_model(const std::filesystem::path& model,
+                            const std::vector<std::string>& settings);
 
 // Writes converted meshes to OUT/meshes/NAME.HASH/NAME.msh, which no other mesh overwrites: HASH is
 // the start of the SHA-256.

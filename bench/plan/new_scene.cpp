@@ -32,9 +32,9 @@ std::string in_lines(const Json& object) {
   return fmt::format("{{\n{}\n  }}", fmt::join(lines, ",\n"));
 }
 
-std::string length_unit_of(const Options& options) {
+std::string length_unit_of(const std::vector<std::string>& settings) {
   const std::string setting = std::string(length_unit_setting.option) + "=";
-  for (const std::string& given : options.model_settings)
+  for (const std::string& given : settings)
     if (given.starts_with(setting)) return given.substr(setting.size());
   return "mm";
 }
@@ -168,8 +168,9 @@ void note_missing_roles(const Json& boundary, const std::string& name) {
 
 }  // namespace
 
-std::string new_scene_text(const std::filesystem::path& model, const Options& options) {
-  const Json shown = parse_json(curves_of_model(model, options));
+std::string new_scene_text(const std::filesystem::path& model,
+                           const std::vector<std::string>& settings) {
+  const Json shown = parse_json(curves_of_model(model, settings));
   const Material material;
   const Json of_material = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
   Json roles = Json::object(), boundary = Json::object(), materials = Json::object();
@@ -196,7 +197,7 @@ std::string new_scene_text(const std::filesystem::path& model, const Options& op
   for (const Json& body : shown["bodies"]) materials[body.get<std::string>()] = of_material;
   note_missing_roles(boundary, model_name(model) + ".json");
   std::vector<std::string> lines = {
-      fmt::format("\"length_unit\": {}", json_text(length_unit_of(options))),
+      fmt::format("\"length_unit\": {}", json_text(length_unit_of(settings))),
       "\"plane\": \"strain\"",
       fmt::format("\"materials\": {}", in_lines(materials)),
       "\"displacement_mm\": [0, 0]",
@@ -208,7 +209,8 @@ std::string new_scene_text(const std::filesystem::path& model, const Options& op
   return fmt::format("{{\n  {}\n}}\n", fmt::join(lines, ",\n  "));
 }
 
-std::string write_new_scene(const std::filesystem::path& model, const Options& options) {
+std::string write_new_scene(const std::filesystem::path& model,
+                            const std::vector<std::string>& settings) {
   const std::string name = model_name(model) + ".json";
   const auto refuse_if_there = [&] {
     if (std::error_code error; std::filesystem::exists(name, error))
@@ -216,7 +218,7 @@ std::string write_new_scene(const std::filesystem::path& model, const Options& o
   };
   refuse_if_there();
   const SignsOfLife signs("reading " + model.string());
-  const std::string text = new_scene_text(model, options);
+  const std::string text = new_scene_text(model, settings);
   refuse_if_there();
   write_file_atomically(name, text);
   return name;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/plan/case_settings.hpp"
 #include "bench/plan/study.hpp"
-#include "solvers/base/solution.hpp"
 
 namespace airybench {
 
@@ -31,7 +31,16 @@ struct Shard {
 std::string name_of(const Shard& shard);                 // "2/3"
 std::optional<Shard> shard_of(const std::string& text);  // empty unless k/n with 1 ≤ k ≤ n
 
-struct Options {
+// How meshes are adapted: until each of the goals in turn; no goal: they are not.
+struct Adaptation {
+  std::vector<AdaptGoal> goals;
+  std::optional<double> marking;  // bulk marking: share of the squared error, per level
+  std::string by = "HYBRID";      // method that solves the levels
+  bool goals_only = false;        // make cases only of levels that reach a goal
+};
+
+// What is solved, by which methods, and what is asked of it.
+struct RunSettings {
   std::string meshes = "Mesh0..Mesh3";
   std::vector<std::string>
       model_settings;   // options for `meshgen --convert`: "--role=clamped=displacement"
@@ -39,42 +48,47 @@ struct Options {
   std::vector<std::filesystem::path> problems;   // FCLIB files instead of meshes and scenes
   std::vector<std::filesystem::path> externals;  // declarations of other programs
   std::vector<std::filesystem::path> scenes;     // empty: the default scene
-  std::filesystem::path out = "results/latest";
   std::optional<int> figure;  // 3, 4 or 5: meshes and methods of the paper's figure
   Study study;
-  double target_error = 1e-6;
-  Stop stop = Stop::target;
-  std::optional<ContactSolver> contact;  // empty: see plan_cases()
-  bool append = false;                   // keep the records in the folder
-  bool resume = false;                   // run only the cases without a record
+  CaseSettings cases;                    // what its cases are asked, but for a study's points
+  std::vector<int> thread_counts = {1};  // scaling study: ascending from 1
+  std::vector<double> budgets_s;         // error study: --study=error:…
+  Adaptation adapt;
+  std::optional<int> degree;  // --degree: of HYBRID's stresses, on the levels and in cases
   Shard shard;
-  bool interleave = false;  // run repetitions of a scene's cases in random order
+  std::string filter;  // --benchmark_filter=, selects cases
+};
+
+// How often a case is measured, and what bounds a solve.
+struct Limits {
   int repetitions = 5;
   std::optional<double> precision;        // repeat until the median is known to this share …
   int max_repetitions = 1000;             // … but at most so often
   std::optional<double> retry_noisy;      // share: measure a case again if the calibration loop
                                           // deviates by more
-  int threads = 1;                        // scaling study: the largest number
-  std::vector<int> thread_counts = {1};   // scaling study: ascending from 1
+  bool interleave = false;                // repetitions of a scene's cases in random order
+  double long_case_s = 30;                // a longer solve is measured once
   double timeout_s = 900;                 // per solve
   std::optional<double> tuning_budget_s;  // per case, to find parameters and tolerances
-  std::vector<double> budgets_s;          // error study: --study=error:…
-  double long_case_s = 30;                // a longer solve is measured once
   std::optional<std::int64_t> memory_limit_bytes;  // heap per solve, blocks included
-  std::vector<AdaptGoal> adapt;                    // adapt the meshes until each of these in turn
-  std::optional<double> marking;    // bulk marking: share of the squared error, per level
-  std::string adapt_by = "HYBRID";  // method that solves the levels
-  std::optional<int> degree;        // --degree: of HYBRID's stresses, on the levels and in cases
-  bool goals_only = false;          // make cases only of levels that reach a goal
-  bool fields = false;              // write stresses, displacements, contact points …
-  bool mean_fields = false;         // … and their mean with the stresses of displacements
-  bool histories = false;           // keep iteration histories in records.jsonl
+};
+
+// Where records go.
+struct Output {
+  std::filesystem::path folder = "results/latest";
+  bool append = false;                         // keep the records in the folder
+  bool resume = false;                         // run only the cases without a record
+  std::map<std::string, std::string> context;  // --benchmark_context=, added to records
+};
+
+struct Options {
+  RunSettings run;
+  Limits limits;
+  Output output;
   bool list = false, dry_run = false, explain = false;
-  std::filesystem::path check;                     // a declaration: check the program for mistakes
-  std::filesystem::path new_external;              // only write a program and its declaration
-  std::filesystem::path new_scene;                 // a model: only write a scene for it
-  std::string filter;                              // --benchmark_filter=, selects cases
-  std::map<std::string, std::string> own_context;  // --benchmark_context=, added to records
+  std::filesystem::path check;         // a declaration: check the program for mistakes
+  std::filesystem::path new_external;  // only write a program and its declaration
+  std::filesystem::path new_scene;     // a model: only write a scene for it
 };
 
 }  // namespace airybench

@@ -9,41 +9,51 @@ namespace airybench {
 
 namespace {
 
-std::vector<TurnedMethod> points_of(const Method& method, bool has_no_body,
-                                    const Options& options) {
+std::vector<StudyPoint> points_of(const Method& method, bool has_no_body, const RunSettings& run) {
   using enum Study::Points;
-  if (options.study.points == accuracy) return error_points(method);
-  if (options.study.points == threads) return scaling_points(method, options.thread_counts);
-  if (options.study.points == contact && has_no_body) return precision_points(method);
-  if (options.study.points == contact || (has_no_body && !options.contact))
-    return contact_points(method);
-  return {{method, {}}};
+  const CaseSettings asked = common_settings(run);
+  const Study::Points points = run.study.points;
+  if (points == accuracy) return error_points(method, asked);
+  if (points == threads) return scaling_points(asked, run.thread_counts);
+  if (points == contact && has_no_body) return precision_points(method, asked);
+  if (points == contact || (has_no_body && !asked.contact)) return contact_points(method, asked);
+  return {{{}, asked}};
 }
 
-std::optional<ContactSolver> contact_solver(const Case& planned, const Options& options) {
+// Empty: there is no condensed contact problem.
+std::optional<ContactSolver> contact_solver(const Case& planned) {
   const PosedProblem& problem = planned.posed.problem;
   const Method& method = planned.method;
   if (!(method.condenses_contact() || body_of(problem) == nullptr) || !method.program.empty() ||
       solved_sizes(problem).n_c == 0)
     return {};
-  const ContactSolver implied = implied_contact_solver(planned.stop, planned.knob.name);
-  if (implied != ContactSolver::newton) return implied;
-  return planned.knob.contact.value_or(options.contact.value_or(implied));
+  const ContactSolver implied = implied_contact_solver(planned.settings.stop, planned.knob.name);
+  return implied != ContactSolver::newton ? implied : planned.settings.contact.value_or(implied);
 }
 
 }  // namespace
 
+CaseSettings common_settings(const RunSettings& run) {
+  CaseSettings asked = run.cases;
+  asked.timed_once = run.study.once;
+  asked.condition = run.study.condition;
+  asked.intervals = run.study.intervals || asked.fields || !run.adapt.goals.empty();
+  asked.error_of_displacements = run.study.points == Study::Points::accuracy;
+  asked.stresses_by = run.adapt.by;
+  return asked;
+}
+
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods, const Options& options) {
+                             const std::vector<Method>& methods, const RunSettings& run) {
   std::vector<Case> cases;
   for (const PosedScene& scene : scenes)
     for (const Method& method : methods)
-      for (TurnedMethod& point : points_of(method, body_of(scene.problem) == nullptr, options)) {
-        Case& added = cases.emplace_back(Case{scene, std::move(point.method), std::move(point.knob),
-                                              static_cast<int>(cases.size()) + 1,
-                                              options.study.name, options.stop});
-        added.stop = added.knob.stop.value_or(options.stop);
-        added.contact = contact_solver(added, options);
+      for (StudyPoint& point : points_of(method, body_of(scene.problem) == nullptr, run)) {
+        Case& added =
+            cases.emplace_back(Case{scene, method, std::move(point.settings), std::move(point.knob),
+                                    static_cast<int>(cases.size()) + 1, run.study.name,
+                                    std::string(name_of(run.study.points))});
+        added.settings.contact = contact_solver(added);
       }
   return cases;
 }
@@ -62,8 +72,8 @@ CaseName Case::name() const {
           study,
           knob.name,
           knob.value,
-          stop,
-          unless_implied(contact, stop, knob.name)};
+          settings.stop,
+          unless_implied(settings.contact, settings.stop, knob.name)};
 }
 
 std::string fingerprint(const std::vector<Case>& plan) {
@@ -88,7 +98,9 @@ void describe(const Method& method, Record& record) {
   record.iterative = method.is_iterative();
 }
 
-Record blank_record(const PosedProblem& problem, const Method& method, const Options& options) {
+Record blank_record(const Case& planned, const Limits& limits) {
+  const auto& [posed, method, settings, knob, number, study, points] = planned;
+  const PosedProblem& problem = posed.problem;
   const Problem* const body = body_of(problem);
   const MeshSizes sizes = solved_sizes(problem);
   Record record;
@@ -100,9 +112,14 @@ Record blank_record(const PosedProblem& problem, const Method& method, const Opt
   record.mesh = mesh_name_of(problem);
   if (body != nullptr) take_over(extent_of(body->mesh), record);
   describe(method, record);
-  take_over(options, record);
-  if (method.target_error) record.target_error = method.target_error;
-  record.study = options.study.name;
+  take_over(settings, record);
+  take_over(limits, record);
+  record.contact_solver = settings.contact;
+  record.case_number = number;
+  record.study = study;
+  record.points = points;
+  record.knob = knob.name;
+  record.knob_value = knob.value;
   if (body != nullptr) {
     record.n_phi = sizes.n_phi;
     record.n_f = sizes.n_f;
@@ -111,41 +128,25 @@ Record blank_record(const PosedProblem& problem, const Method& method, const Opt
   if (body == nullptr) record.contact_matrix = held<contact::Problem>(problem)->how;
   record.load_steps = body != nullptr ? 1 + std::ssize(body->later_steps) : 1;
   record.stages_left_out = Json::object();
-  for (const StageDecision& decision : decide_stages(problem, method, options.fields)) {
+  for (const StageDecision& decision : decide_stages(problem, method, settings.fields)) {
     if (decision.run)
       record.stages_run.push_back(decision.stage);
     else
       record.stages_left_out[decision.stage] = decision.reason;
   }
-  return record;
-}
-
-Record blank_record(const Case& planned, const Options& options) {
-  Record record = blank_record(planned.posed.problem, planned.method, options);
-  identify(planned, record);
-  return record;
-}
-
-void identify(const Case& planned, Record& record) {
-  record.scene = planned.posed.scene_name;
-  record.scene_group = planned.posed.scene_group;
-  record.scene_definition = parse_json(planned.posed.scene_definition);
-  record.mesh_file = planned.posed.mesh_file;
-  record.mesh_sha256 = planned.posed.mesh_sha256;
-  if (const auto& adapted = planned.posed.adapted) {
+  record.scene = posed.scene_name;
+  record.scene_group = posed.scene_group;
+  record.scene_definition = parse_json(posed.scene_definition);
+  record.mesh_file = posed.mesh_file;
+  record.mesh_sha256 = posed.mesh_sha256;
+  if (const auto& adapted = posed.adapted) {
     record.adapt_level = adapted->level;
     record.adapt_time_s = adapted->time_s;
     record.adapt_estimate_share = adapted->estimate_share;
     record.smallest_angle_deg = adapted->smallest_angle_deg;
     record.adapt_goal = adapted->goal;
   }
-  record.case_number = planned.number;
-  record.knob = planned.knob.name;
-  record.knob_value = planned.knob.value;
-  if (planned.knob.threads) record.threads = *planned.knob.threads;
-  record.study = planned.study;
-  record.stop = planned.stop;
-  record.contact_solver = planned.contact;
+  return record;
 }
 
 }  // namespace airybench

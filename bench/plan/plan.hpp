@@ -47,29 +47,29 @@ struct PosedScene {
 struct Case {
   PosedScene posed;
   Method method;
+  CaseSettings settings = {};
   Knob knob = {};
-  int number = 0;  // in the whole plan, from 1, also in a shard
-  std::string study;
-  Stop stop = Stop::target;                   // the knob's stop if it has one
-  std::optional<ContactSolver> contact = {};  // empty: no condensed contact problem
+  int number = 0;                       // in the whole plan, from 1, also in a shard
+  std::string study = {}, points = {};  // its name, and Study::Points in words
   CaseName name() const;
 };
+
+// What every case is asked, but for what a study's points change.
+CaseSettings common_settings(const RunSettings& run);
 
 // Orders cases by scene, so that methods on the same blocks run one after another. Without
 // --contact, bodies take Newton, and problems without a body one case per contact solver.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods, const Options& options = {});
+                             const std::vector<Method>& methods, const RunSettings& run = {});
 
 std::string fingerprint(const std::vector<Case>& plan);  // SHA-256 of names, meshes, scenes
 
 std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard);
 
-// The record of a case before anything runs: names, sizes, stages and the reason to skip it.
-Record blank_record(const PosedProblem& problem, const Method& method, const Options& options);
-Record blank_record(const Case& planned, const Options& options);
+// The record of a case before anything runs: names, sizes, what is asked, stages and the reason to
+// skip it.
+Record blank_record(const Case& planned, const Limits& limits);
 
 void describe(const Method& method, Record& record);
-// Sets scene, mesh file, knob, stop and contact solver.
-void identify(const Case& planned, Record& record);
 
 }  // namespace airybench

@@ -1,6 +1,8 @@
 #include "bench/plan/study.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include "bench/records/case_name.hpp"
 #include "bench/records/json_value.hpp"
@@ -12,43 +14,21 @@
 namespace airybench {
 namespace {
 
-template <typename AnySolve>
-AnySolve under(const std::function<void(RunControl&)>& turn, AnySolve solve) {
-  if (!solve) return nullptr;
-  return [solve = std::move(solve), turn](const auto& problem, RunControl control) {
-    turn(control);
-    return solve(problem, control);
-  };
+StudyPoint at_paper_stop(CaseSettings asked) {
+  asked.stop = Stop::paper;
+  asked.tightened = false;
+  return {{}, std::move(asked)};
 }
 
-// A copy of the method that runs once, without tightening, after `turn` has changed the control.
-TurnedMethod turned(const Method& method, Knob knob, std::function<void(RunControl&)> turn) {
-  TurnedMethod result{method, std::move(knob)};
-  result.method.first_tolerance = 0;
-  result.method.solve = under(turn, method.solve);
-  result.method.solve_contact = under(turn, method.solve_contact);
-  if (method.tune)
-    result.method.tune = [tune = method.tune, turn](const DualSystem& system, RunControl control) {
-      turn(control);
-      Tuning tuning = tune(system, control);
-      tuning.solve = under(turn, tuning.solve);
-      return tuning;
-    };
-  return result;
-}
-
-TurnedMethod at_paper_stop(const Method& method) {
-  return turned(method, {"", {}, Stop::paper, {}},
-                [](RunControl& control) { control.stop = Stop::paper; });
-}
-
-std::vector<TurnedMethod> turned_to(const Method& method, const std::string& knob,
-                                    const std::vector<double>& values,
-                                    void (*turn)(RunControl&, double)) {
-  std::vector<TurnedMethod> points;
-  for (const double value : values)
-    points.push_back(turned(method, {knob, value, {}, {}},
-                            [value, turn](RunControl& control) { turn(control, value); }));
+template <typename Set>
+std::vector<StudyPoint> points_at(const std::string& knob, const std::vector<double>& values,
+                                  const CaseSettings& asked, Set set) {
+  std::vector<StudyPoint> points;
+  for (const double value : values) {
+    StudyPoint& point = points.emplace_back(StudyPoint{{knob, value}, asked});
+    point.settings.tightened = false;
+    set(point.settings, value);
+  }
   return points;
 }
 
@@ -62,6 +42,11 @@ std::vector<std::filesystem::path> json_files(const std::filesystem::path& folde
 }
 
 }  // namespace
+
+std::string_view name_of(Study::Points points) {
+  constexpr std::array<std::string_view, 4> names = {"", "accuracy", "contact", "threads"};
+  return names[static_cast<std::size_t>(points)];
+}
 
 Study study_of(const std::filesystem::path& file) {
   using enum Study::Points;
@@ -80,7 +65,9 @@ Study study_of(const std::filesystem::path& file) {
   JsonValue(file.string(), "", json)
       .object({required(key("about", study.about)),
                choice("points", study.points,
-                      {{"accuracy", accuracy}, {"contact", contact}, {"threads", threads}}),
+                      {{std::string(name_of(accuracy)), accuracy},
+                       {std::string(name_of(contact)), contact},
+                       {std::string(name_of(threads)), threads}}),
                key("method", study.methods),
                {"options", read_options},
                key("scenes", study.scenes),
@@ -119,67 +106,66 @@ std::vector<std::filesystem::path> scenes_of(const Study& study) {
   return files;
 }
 
-std::vector<TurnedMethod> contact_points(const Method& method) {
-  if (!method.program.empty()) return {{method, {}}};  // the program is a contact solver
-  std::vector<TurnedMethod> points;
-  for (const ContactSolver solver : all_contact_solvers)
-    points.push_back(turned(method, {"", {}, {}, solver},
-                            [solver](RunControl& control) { control.contact.solver = solver; }));
-  return points;
-}
-
-std::vector<TurnedMethod> precision_points(const Method& method) {
-  std::vector<TurnedMethod> points;
-  for (const double precision : {1e-4, 1e-8})
-    for (const TurnedMethod& by : contact_points(method)) {
-      points.push_back(turned(by.method, {"tolerance", precision, {}, by.knob.contact},
-                              [precision](RunControl& control) {
-                                control.target_error = precision;
-                                control.tolerance = precision / 10;
-                                control.contact.tolerance = precision / 10;
-                                control.contact.acceptable = precision / 10;
-                              }));
-      points.back().method.target_error = precision;
-    }
-  return points;
-}
-
-std::vector<TurnedMethod> scaling_points(const Method& method, const std::vector<int>& threads) {
-  std::vector<TurnedMethod> points;
-  for (const int count : threads) {
-    points.push_back(turned(method, {"threads", count, {}, {}, count},
-                            [count](RunControl& control) { control.threads = count; }));
-    points.back().method.first_tolerance = method.first_tolerance;  // still tightened
+std::vector<StudyPoint> contact_points(const Method& method, const CaseSettings& asked) {
+  if (!method.program.empty()) return {{{}, asked}};  // the program is a contact solver
+  std::vector<StudyPoint> points;
+  for (const ContactSolver solver : all_contact_solvers) {
+    CaseSettings& settings = points.emplace_back(StudyPoint{{}, asked}).settings;
+    settings.tightened = false;
+    settings.contact = solver;
   }
   return points;
 }
 
-std::vector<TurnedMethod> error_points(const Method& method) {
-  std::vector<TurnedMethod> points;
+std::vector<StudyPoint> precision_points(const Method& method, const CaseSettings& asked) {
+  std::vector<StudyPoint> points;
+  for (const double precision : {1e-4, 1e-8})
+    for (StudyPoint& point : contact_points(method, asked)) {
+      point.knob = {"tolerance", precision};
+      point.settings.tightened = false;
+      point.settings.target_error = precision;
+      point.settings.tolerance = precision / 10;
+      point.settings.contact_tolerance = precision / 10;
+      points.push_back(std::move(point));
+    }
+  return points;
+}
+
+std::vector<StudyPoint> scaling_points(const CaseSettings& asked, const std::vector<int>& threads) {
+  std::vector<StudyPoint> points;
+  for (const int count : threads) {
+    points.push_back({{"threads", count}, asked});
+    points.back().settings.threads = count;
+  }
+  return points;
+}
+
+std::vector<StudyPoint> error_points(const Method& method, const CaseSettings& asked) {
+  std::vector<StudyPoint> points;
   switch (method.knob) {
     case AccuracyKnob::krylov_tolerance:
-      return turned_to(method, "tolerance", {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12},
-                       [](RunControl& control, double value) { control.tolerance = value; });
+      return points_at("tolerance", {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}, asked,
+                       [](CaseSettings& settings, double value) { settings.tolerance = value; });
     case AccuracyKnob::uzawa_iterations:
-      points = turned_to(method, "uzawa iterations", {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000},
-                         [](RunControl& control, double value) {
-                           control.tolerance = 0;
-                           control.most_iterations = static_cast<int>(value);
+      points = points_at("uzawa iterations", {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000}, asked,
+                         [](CaseSettings& settings, double value) {
+                           settings.tolerance = 0;
+                           settings.max_iterations = static_cast<int>(value);
                          });
-      points.push_back(at_paper_stop(method));
+      points.push_back(at_paper_stop(asked));
       return points;
     case AccuracyKnob::contact_sweeps:
-      points = turned_to(method, std::string(sweeps_knob), {1, 3, 10, 30, 100, 300, 1000},
-                         [](RunControl& control, double value) {
-                           control.contact.most_iterations = static_cast<int>(value);
-                           control.contact.solver = ContactSolver::gauss_seidel;
+      points = points_at(std::string(sweeps_knob), {1, 3, 10, 30, 100, 300, 1000}, asked,
+                         [](CaseSettings& settings, double value) {
+                           settings.max_contact_iterations = static_cast<int>(value);
+                           settings.contact = ContactSolver::gauss_seidel;
                          });
-      points.push_back({method, {}});
+      points.push_back({{}, asked});
       return points;
     case AccuracyKnob::stop:
-      return {{method, {}}, at_paper_stop(method)};
+      return {{{}, asked}, at_paper_stop(asked)};
     default:
-      return {{method, {}}};
+      return {{{}, asked}};
   }
 }
 

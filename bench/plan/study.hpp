@@ -14,9 +14,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "bench/plan/case_settings.hpp"
 #include "solvers/base/method.hpp"
 
 namespace airybench {
@@ -30,6 +32,7 @@ struct Study {
   bool once = false, condition = false, intervals = false;
 };
 
+std::string_view name_of(Study::Points points);     // "accuracy"; of one: ""
 Study study_of(const std::filesystem::path& file);  // throws FileError
 std::vector<Study> all_studies();                   // sorted by name; throws FileError
 std::optional<Study> study_named(const std::string& name);
@@ -37,24 +40,25 @@ std::string default_methods(const Study& study);  // as for --method
 // Sorted by name. Throws std::invalid_argument if the study's folder has no scene file.
 std::vector<std::filesystem::path> scenes_of(const Study& study);
 
+// What tells the cases of a method in a study apart.
 struct Knob {
-  std::string name;  // "tolerance"; empty: nothing is changed
+  std::string name;  // "tolerance"; empty: nothing
   std::optional<double> value;
-  std::optional<Stop> stop;  // replaces the run's
-  std::optional<ContactSolver> contact;
-  std::optional<int> threads = {};  // replaces the run's
 };
 
-struct TurnedMethod {
-  Method method;  // the knob overrides the harness's RunControl
+// A case of a method, as a study has several.
+struct StudyPoint {
   Knob knob;
+  CaseSettings settings;
 };
 
-std::vector<TurnedMethod> error_points(const Method& method);
-std::vector<TurnedMethod> contact_points(const Method& method);
+// They start from what is asked of every case. A point with a knob is not tightened, but for the
+// numbers of threads.
+std::vector<StudyPoint> error_points(const Method& method, const CaseSettings& asked);
+std::vector<StudyPoint> contact_points(const Method& method, const CaseSettings& asked);
 // The same to 1e-4 and to 1e-8, each by a separate run. All stop at a tenth of it by their own
 // measure, natural map or Siconos', so that the answer's is not above it in the file's units.
-std::vector<TurnedMethod> precision_points(const Method& method);
-std::vector<TurnedMethod> scaling_points(const Method& method, const std::vector<int>& threads);
+std::vector<StudyPoint> precision_points(const Method& method, const CaseSettings& asked);
+std::vector<StudyPoint> scaling_points(const CaseSettings& asked, const std::vector<int>& threads);
 
 }  // namespace airybench

@@ -55,10 +55,11 @@ struct Record {
 
 // Sources of fields; take_over() needs their names only.
 struct AssembledBlocks;
+struct CaseSettings;
+struct Limits;
 struct MemorySplit;
 struct MeshExtent;
 struct Method;
-struct Options;
 struct Solution;
 struct Verification;
 struct elsewhere;  // no source: the code that measures sets the field
@@ -124,7 +125,8 @@ std::string context_word(const Record& record, const std::string& key);  // "" i
 
 bool is_verified(const Record& record);
 
-// Whether time and memory count: there is an answer, or an error study stopped the method early.
+// Whether time and memory count: there is an answer, or a study of accuracy stopped the method
+// early.
 bool is_measured(const Record& record);
 
 }  // namespace airybench

@@ -150,7 +150,7 @@ void FilledColumns::add(const Record& r) {
   for (const TableColumn& column : table_columns)
     if (column.field != nullptr && !field_named(column.field).value(r).is_null())
       fields_.insert(column.field);
-  has_contact_study_ = has_contact_study_ || r.study == "contact";
+  has_contact_study_ = has_contact_study_ || r.points == "contact";
 }
 
 bool FilledColumns::include(const TableColumn& column) const {

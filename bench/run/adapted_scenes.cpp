@@ -89,7 +89,7 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
 // What records that stay refer to is not replaced.
 void write_for_records(const std::filesystem::path& file, const std::string& text,
                        const Options& options) {
-  if (std::error_code error; (options.append || options.resume) &&
+  if (std::error_code error; (options.output.append || options.output.resume) &&
                              std::filesystem::exists(file, error) &&
                              sha256_of_file(file) != sha256_hex(text))
     throw InputError(
@@ -102,8 +102,9 @@ void write_for_records(const std::filesystem::path& file, const std::string& tex
 // MESH+adapt3, for stresses of degree 2 MESH+adapt3k2: runs of several degrees can be joined.
 Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
                 const std::string& mesh_name, const std::filesystem::path& folder) {
-  level.mesh.name = fmt::format("{}+{}{}{}", mesh_name, options.marking == 1. ? "refined" : "adapt",
-                                level.number, degree > 1 ? fmt::format("k{}", degree) : "");
+  level.mesh.name =
+      fmt::format("{}+{}{}{}", mesh_name, options.run.adapt.marking == 1. ? "refined" : "adapt",
+                  level.number, degree > 1 ? fmt::format("k{}", degree) : "");
   const std::filesystem::path file = folder / (level.mesh.name + ".msh");
   write_for_records(file, msh_text(level.mesh), options);
   return {{"file", file.string()},
@@ -120,12 +121,12 @@ Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
 void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Options& options,
                 const std::filesystem::path& folder) {
   tell_refused_memory_at_exit();
-  set_threads(options.threads);
-  const heap::Backstop backstop(options.memory_limit_bytes);
-  const Method method = adapting_method(options.adapt_by);
+  set_threads(options.run.cases.threads);
+  const heap::Backstop backstop(options.limits.memory_limit_bytes);
+  const Method method = adapting_method(options.run.adapt.by);
   AdaptiveLoop loop(scene, mesh, method,
-                    {options.adapt, options.marking, options.timeout_s, options.memory_limit_bytes,
-                     options.threads});
+                    {options.run.adapt.goals, options.run.adapt.marking, options.limits.timeout_s,
+                     options.limits.memory_limit_bytes, options.run.cases.threads});
   while (channel.receive()) {
     Json answer = Json::object();
     try {
@@ -155,7 +156,7 @@ PosedScene posed_level(const Json& said, const Scene& scene, const std::string& 
   const double time_s = said.at("time_s");
   return {.scene_name = start.scene_name,
           .scene_group = start.scene_group,
-          .mesh_file = recorded_path(file.path, options.out),
+          .mesh_file = recorded_path(file.path, options.output.folder),
           .mesh_sha256 = file.sha256,
           .scene_definition = definition,
           .problem = std::make_shared<const Problem>(pose(scene, file.mesh)),
@@ -183,23 +184,23 @@ PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
   Mesh mesh = uniformly_refined(level_0.body()->mesh);
   mesh.name = mesh.name.substr(0, mesh.name.rfind('+')) + "+refine1";
   const std::filesystem::path file =
-      options.out / "meshes" / level_0.scene_name / (mesh.name + ".msh");
+      options.output.folder / "meshes" / level_0.scene_name / (mesh.name + ".msh");
   write_file_atomically(file, msh_text(mesh));
-  refined.mesh_file = recorded_path(file, options.out);
+  refined.mesh_file = recorded_path(file, options.output.folder);
   refined.mesh_sha256 = sha256_of_file(file);
   Scene scene = scene_of(level_0.scene_definition, mesh.name);
   refined.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh)));
   return refined;
 }
 
-void check_adapting_method(const Options& options) { adapting_method(options.adapt_by); }
+void check_adapting_method(const Options& options) { adapting_method(options.run.adapt.by); }
 
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
   check_adapting_method(options);
   const Mesh& mesh = start.body()->mesh;
   const std::string name = mesh.name + "/" + start.scene_name;
   const std::string definition = definition_on(mesh, start.scene_definition, name);
-  const std::filesystem::path folder = options.out / "meshes" / start.scene_name;
+  const std::filesystem::path folder = options.output.folder / "meshes" / start.scene_name;
   const std::filesystem::path scene_file = folder / mesh.name / (start.scene_name + ".json");
   make_folder(scene_file.parent_path());
   write_for_records(scene_file, definition + "\n", options);
@@ -212,7 +213,7 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
   for (bool goes_on = true; goes_on;) {
     if (!process)
       process.emplace([&](Channel& channel) { serve_loop(channel, scene, mesh, options, folder); });
-    double left_s = 1.1 * options.timeout_s + grace_s;
+    double left_s = 1.1 * options.limits.timeout_s + grace_s;
     const auto asked = std::chrono::steady_clock::now();
     const std::optional<std::string> answer = process->ask("next", [&](double suspended_s) {
       throw_if_interrupted();
@@ -237,15 +238,16 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
     result.why_not_reached = said.value("ended", "");
     goes_on = !said.value("reached", false) && result.why_not_reached.empty();
   }
-  if (options.goals_only && !levels.empty()) {
+  if (options.run.adapt.goals_only && !levels.empty()) {
     levels.back()["reaches"] = true;  // the last level, even if it misses the goal
     std::erase_if(levels, [](const Json& said) { return !said.at("reaches").get<bool>(); });
   }
   for (const Json& said : levels)
     result.levels.push_back(posed_level(said, scene, definition, start, options));
   if (!result.why_not_reached.empty())
-    result.why_not_reached = fmt::format("--adapt={}: not reached for {}: {}",
-                                         text_of(options.adapt), name, result.why_not_reached);
+    result.why_not_reached =
+        fmt::format("--adapt={}: not reached for {}: {}", text_of(options.run.adapt.goals), name,
+                    result.why_not_reached);
   return result;
 }
 

@@ -34,29 +34,29 @@ struct Command {
   std::size_t k = 0;
 };
 
-double limit_s(const ActivityBoard& board, const Options& options) {
+double limit_s(const ActivityBoard& board, const Limits& limits) {
   constexpr double least_for_others_s = 900;
-  return is_run(board.activity()) ? run_limit_s(board.activity(), options)
-                                  : std::max(options.timeout_s, least_for_others_s);
+  return is_run(board.activity()) ? run_limit_s(board.activity(), limits)
+                                  : std::max(limits.timeout_s, least_for_others_s);
 }
 
 // The grace lets a method end by itself and report its progress.
-bool is_overdue(const ActivityBoard& board, const Options& options) {
-  return board.seconds() > 1.1 * limit_s(board, options) + 2;
+bool is_overdue(const ActivityBoard& board, const Limits& limits) {
+  return board.seconds() > 1.1 * limit_s(board, limits) + 2;
 }
 
-void keep_log(const Case& c, const Options& options, const std::string& log) {
+void keep_log(const Case& c, const std::filesystem::path& out, const std::string& log) {
   if (log.empty()) return;
-  make_folder(options.out / "programs");
-  write_file_atomically(options.out / "programs" / (c.name().file() + ".txt"), log);
+  make_folder(out / "programs");
+  write_file_atomically(out / "programs" / (c.name().file() + ".txt"), log);
 }
 
-void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench,
-                const ActivityBoard& board) {
-  set_threads(c.knob.threads.value_or(options.threads));
-  const heap::Backstop backstop(options.memory_limit_bytes);
+void serve_case(Channel& channel, const Case& c, const Limits& limits,
+                const std::filesystem::path& out, Workbench& bench, const ActivityBoard& board) {
+  set_threads(c.settings.threads);
+  const heap::Backstop backstop(limits.memory_limit_bytes);
   const std::filesystem::path fields =
-      options.fields ? options.out / "fields" / c.name().file() : std::filesystem::path();
+      c.settings.fields ? out / "fields" / c.name().file() : std::filesystem::path();
   Record record;
   Workbench::Choice choice;
   while (const auto line = channel.receive()) {
@@ -67,16 +67,15 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
       continue;
     }
     try {
-      auto examination = bench.examine(c.method, fields);
+      auto examination = bench.examine(c, fields);
       record = std::move(examination.record);
       choice = std::move(examination.choice);
-      keep_log(c, options, examination.program_log);
+      keep_log(c, out, examination.program_log);
     } catch (const FileError& error) {  // from a field or a log
-      record = blank_record(c, options);
+      record = blank_record(c, limits);
       record.status = Status::machine_fault;
       record.status_reason = error.what();
     }
-    identify(c, record);
     if (is_measured(record) && !record.measured_once)
       bench.measure_memory(c.method, choice, record);
     record.runs_s = board.seconds_in_runs();
@@ -97,8 +96,8 @@ void end_orphans(const std::map<std::size_t, CaseProcess>& processes) {
   end_others_than(children);
 }
 
-Record record_of_end(const Case& c, const Options& options, const TimedRun& last) {
-  Record record = blank_record(c, options);
+Record record_of_end(const Case& c, const Limits& limits, const TimedRun& last) {
+  Record record = blank_record(c, limits);
   record.status = last.status;
   record.status_reason = last.message;
   record.signal = last.signal;
@@ -108,12 +107,12 @@ Record record_of_end(const Case& c, const Options& options, const TimedRun& last
   return record;
 }
 
-void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
-                 ActivityBoard& board, const LeftOut& left_out) {
+void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Limits& limits,
+                 const std::filesystem::path& out, ActivityBoard& board, const LeftOut& left_out) {
   tell_refused_memory_at_exit();
   adopt_orphans();
   set_threads(1);  // OpenMP's threads would not survive the forks
-  Workbench bench(cases.front()->posed.problem, options, left_out);
+  Workbench bench(cases.front()->posed.problem, cases.front()->settings, limits, left_out);
   bench.show_on(&board);
   std::map<std::size_t, CaseProcess> processes;
   while (const auto line = channel.receive()) {
@@ -136,15 +135,15 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
         own.process = std::make_unique<ChildProcess>([&](Channel& to_scene) {
           bench.show_on(&own.board);
           const ObservedStages observed(&own.board);
-          serve_case(to_scene, c, options, bench, own.board);
+          serve_case(to_scene, c, limits, out, bench, own.board);
         });
       answer = own.process->ask(*line, [&](double suspended_s) {
         board.beat();
         own.board.skip(suspended_s);
-        return is_overdue(own.board, options);
+        return is_overdue(own.board, limits);
       });
       if (answer) return !own.process->was_suspended();
-      last = obituary_of(own.process->end(), own.board, options);
+      last = obituary_of(own.process->end(), own.board, limits);
       end_orphans(processes);
       return true;
     };
@@ -161,7 +160,7 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
       last.message = error.what();
     }
     if (!answer)
-      answer = json_text(examines ? to_json(record_of_end(c, options, last)) : to_json(last));
+      answer = json_text(examines ? to_json(record_of_end(c, limits, last)) : to_json(last));
     channel.send(*answer);
   }
 }
@@ -192,7 +191,7 @@ void tell_refused_memory_at_exit() {
   });
 }
 
-TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options) {
+TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limits& limits) {
   TimedRun run;
   run.ended_in = board.where();
   run.time_s = board.seconds();
@@ -210,7 +209,7 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Opti
   }
   if (is_unheard(end)) return ended(Status::machine_fault, ": the channel to it failed");
   if (end.timed_out)
-    return ended(Status::timeout, fmt::format(": the limit is {} s", limit_s(board, options)));
+    return ended(Status::timeout, fmt::format(": the limit is {} s", limit_s(board, limits)));
   if (end.exit_code == heap::backstop_exit_code)
     return ended(Status::out_of_memory, ": it passed the memory limit");
   if (end.exit_code == no_memory_exit_code)
@@ -255,7 +254,7 @@ std::optional<std::string> IsolatedScene::ask(const std::string& verb, std::size
   return process_->ask(fmt::format("{} {}", verb, k), [&](double suspended_s) {
     board_.skip(suspended_s);
     sign_of_life([&] { return sign_of(verb, k, seconds_since(start)); });
-    return is_interrupted() || is_overdue(board_, options_) || is_silent();
+    return is_interrupted() || is_overdue(board_, limits_) || is_silent();
   });
 }
 
@@ -288,7 +287,7 @@ void IsolatedScene::prepare(std::size_t k) {
       examined_.clear();
       try {
         process_ = std::make_unique<ChildProcess>([this](Channel& channel) {
-          serve_scene(channel, cases_, options_, board_, left_out_);
+          serve_scene(channel, cases_, limits_, out_, board_, left_out_);
         });
       } catch (const std::system_error& error) {
         why_no_process_ = {Status::machine_fault, error.what()};
@@ -300,7 +299,7 @@ void IsolatedScene::prepare(std::size_t k) {
     const ChildEnd& end = process_->end();
     const bool is_from_outside =
         end.stopped || is_unheard(end) || (end.signal == SIGKILL && end.oom_killed == false);
-    const TimedRun obituary = obituary_of(end, board_, options_);
+    const TimedRun obituary = obituary_of(end, board_, limits_);
     switch (is_from_outside ? Activity::none : board_.activity()) {
       case Activity::assembly:
         broken_assemblies_[blocks] = obituary;
@@ -320,19 +319,19 @@ void IsolatedScene::prepare(std::size_t k) {
 }
 
 Record IsolatedScene::examine(std::size_t k) {
-  Record record = blank_record(*cases_[k], options_);
+  Record record = blank_record(*cases_[k], limits_);
   if (record.status == Status::skipped) return record;
   prepare_all();
   if (const auto broken = broken_assemblies_.find(blocks_key(cases_[k]->method));
       broken != broken_assemblies_.end())
-    return record_of_end(*cases_[k], options_, broken->second);
+    return record_of_end(*cases_[k], limits_, broken->second);
   examined_.insert(k);
   const std::optional<std::string> answer = ask("examine", k);
   throw_if_interrupted();
   try {
     if (answer) return record_of_text(*answer, "its record");
   } catch (const RecordError& wrong) {
-    return record_of_defect(*cases_[k], options_, wrong);
+    return record_of_defect(*cases_[k], limits_, wrong);
   }
   end_process();
   std::tie(record.status, record.status_reason) = why_no_process_;
@@ -366,8 +365,8 @@ void IsolatedScene::end(std::size_t k) {
   if (!cases_[k]->method.program.empty()) remove_abandoned_folders();
 }
 
-Record record_of_defect(const Case& c, const Options& options, const RecordError& wrong) {
-  Record record = blank_record(c, options);
+Record record_of_defect(const Case& c, const Limits& limits, const RecordError& wrong) {
+  Record record = blank_record(c, limits);
   record.status_reason = wrong.what();
   return record;
 }

@@ -30,9 +30,11 @@ namespace airybench {
 
 class IsolatedScene {
  public:
-  // Cases are numbered by their index in `cases`. Both arguments must outlive the object.
-  IsolatedScene(const std::vector<const Case*>& cases, const Options& options)
-      : cases_(cases), options_(options) {}
+  // Cases are numbered by their index in `cases`; out: the results folder. The arguments must
+  // outlive the object.
+  IsolatedScene(const std::vector<const Case*>& cases, const Limits& limits,
+                const std::filesystem::path& out)
+      : cases_(cases), limits_(limits), out_(out) {}
 
   Record examine(std::size_t k);         // detail and memory run
   TimedRun measure_time(std::size_t k);  // one timed run
@@ -49,7 +51,8 @@ class IsolatedScene {
   std::optional<std::string> ask(const std::string& verb, std::size_t k);
 
   const std::vector<const Case*>& cases_;
-  const Options& options_;
+  const Limits& limits_;
+  const std::filesystem::path& out_;
   ActivityBoard board_;                              // of the scene's process
   LeftOut left_out_;                                 // parts that broke it
   std::map<BlocksKey, TimedRun> broken_assemblies_;  // whose assembly broke it, and how it ended
@@ -61,10 +64,10 @@ class IsolatedScene {
   double preparation_s_ = 0;
 };
 
-TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options);
+TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limits& limits);
 
 // Of a case whose record cannot be read: a crash.
-Record record_of_defect(const Case& c, const Options& options, const RecordError& wrong);
+Record record_of_defect(const Case& c, const Limits& limits, const RecordError& wrong);
 
 // From now on exit() after a refused allocation ends this process with no_memory_exit_code.
 void tell_refused_memory_at_exit();

@@ -96,14 +96,16 @@ std::string run_benchmarks(const std::string& filter, Listener::Ended ended) {
 
 class SceneRunner {
  public:
-  SceneRunner(const std::vector<const Case*>& cases, const Options& options, RecordFiles& files,
-              Progress& progress, NoiseWatch& watch, RunTimes& times)
+  SceneRunner(const std::vector<const Case*>& cases, const Limits& limits,
+              const std::filesystem::path& out, RecordFiles& files, Progress& progress,
+              NoiseWatch& watch, RunTimes& times)
       : planned_(cases),
-        options_(options),
+        limits_(limits),
         files_(files),
         progress_(progress),
         watch_(watch),
-        times_(times) {
+        times_(times),
+        scene_(planned_, limits, out) {
     cases_.resize(cases.size());
   }
 
@@ -114,10 +116,10 @@ class SceneRunner {
                                    [this, k](benchmark::State& state) { measure(k, state); })
           ->UseManualTime()
           ->Iterations(1)
-          ->Repetitions(most_repetitions(options_))
+          ->Repetitions(most_repetitions(limits_))
           ->Unit(benchmark::kMillisecond);
     run_benchmarks("all", [this](const std::string& name) { finish(index_of(name)); });
-    if (options_.interleave) write_finished();
+    if (limits_.interleave) write_finished();
   }
 
   double preparation_s() const { return scene_.preparation_s(); }
@@ -157,7 +159,7 @@ class SceneRunner {
 
   double next_sample(std::size_t k, benchmark::State& state) {
     Measured& c = cases_[k];
-    if (is_repeated(*c.record, options_)) return add_sample(k);
+    if (is_repeated(*c.record, limits_)) return add_sample(k);
     if (!c.record->measured_once || std::exchange(c.shown_once, true))
       state.SkipWithError("not repeated: a long case, or precise enough");
     return c.record->samples_s.back();
@@ -171,15 +173,13 @@ class SceneRunner {
   void time_loop(int passes, std::size_t k) {
     watch_.add_passes(passes, threads_of(k), *cases_[k].record);
   }
-  int threads_of(std::size_t k) const {
-    return planned_[k]->knob.threads.value_or(options_.threads);
-  }
+  int threads_of(std::size_t k) const { return planned_[k]->settings.threads; }
 
   void finish(std::size_t k) {
-    if (!options_.retry_noisy) scene_.end(k);
+    if (!limits_.retry_noisy) scene_.end(k);
     time_loop(passes_beside, k);
     cases_[k].finished = true;
-    if (!options_.interleave) write_finished();
+    if (!limits_.interleave) write_finished();
   }
 
   void write_finished() {
@@ -187,7 +187,7 @@ class SceneRunner {
     for (std::size_t k = 0; k < cases_.size(); ++k) {
       Measured& c = cases_[k];
       if (!c.finished || std::exchange(c.written, true)) continue;
-      if (options_.retry_noisy) scene_.end(k);
+      if (limits_.retry_noisy) scene_.end(k);
       watch_.keep_quietest(std::move(c.noisy), *c.record, std::cerr);
       c.record->wall_s = c.wall_s;
       *c.record = append(*planned_[k], std::move(*c.record));
@@ -203,7 +203,7 @@ class SceneRunner {
       summarise(record);
       return files_.append(std::move(record));
     } catch (const RecordError& wrong) {
-      return files_.append(record_of_defect(planned, options_, wrong));
+      return files_.append(record_of_defect(planned, limits_, wrong));
     }
   }
 
@@ -230,7 +230,7 @@ class SceneRunner {
       any = false;
       for (const std::size_t k : cases) {
         const Record& record = *cases_[k].record;
-        if (!is_measured(record) || !is_repeated(record, options_)) continue;
+        if (!is_measured(record) || !is_repeated(record, limits_)) continue;
         any = true;
         const auto start = std::chrono::steady_clock::now();
         add_sample(k);
@@ -246,40 +246,41 @@ class SceneRunner {
   }
 
   const std::vector<const Case*>& planned_;
-  const Options& options_;
+  const Limits& limits_;
   RecordFiles& files_;
   Progress& progress_;
   NoiseWatch& watch_;
   RunTimes& times_;
-  IsolatedScene scene_{planned_, options_};
+  IsolatedScene scene_;
   std::vector<Measured> cases_;
 };
 
 }  // namespace
 
-int least_repetitions(const Options& options) {
-  return options.precision ? std::max(options.repetitions, fewest_for_median_interval)
-                           : options.repetitions;
+int least_repetitions(const Limits& limits) {
+  return limits.precision ? std::max(limits.repetitions, fewest_for_median_interval)
+                          : limits.repetitions;
 }
 
-int most_repetitions(const Options& options) {
-  return options.precision ? options.max_repetitions : options.repetitions;
+int most_repetitions(const Limits& limits) {
+  return limits.precision ? limits.max_repetitions : limits.repetitions;
 }
 
-RunLimits limits_of(const Options& options) {
-  return {least_repetitions(options), options.timeout_s, options.long_case_s,
-          options.memory_limit_bytes, options.study.once};
+RunLimits limits_of(const Limits& limits, const std::vector<Case>& plan) {
+  return {least_repetitions(limits), limits.timeout_s, limits.long_case_s,
+          limits.memory_limit_bytes,
+          std::ranges::any_of(plan, [](const Case& c) { return c.settings.timed_once; })};
 }
 
-bool is_repeated(const Record& record, const Options& options) {
+bool is_repeated(const Record& record, const Limits& limits) {
   const std::vector<double>& samples = record.samples_s;
   if (samples.empty()) return true;
   const double so_far_s = std::accumulate(samples.begin(), samples.end(), 0.0);
-  if (record.measured_once || so_far_s >= options.long_case_s ||
-      std::ssize(samples) >= most_repetitions(options))
+  if (record.measured_once || so_far_s >= limits.long_case_s ||
+      std::ssize(samples) >= most_repetitions(limits))
     return false;
-  if (std::ssize(samples) < least_repetitions(options)) return true;
-  return *median_uncertainty(samples) > *options.precision;
+  if (std::ssize(samples) < least_repetitions(limits)) return true;
+  return *median_uncertainty(samples) > *limits.precision;
 }
 
 std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave) {
@@ -298,19 +299,19 @@ std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bo
   return plan;
 }
 
-RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context,
-                    const Machine& machine) {
+RunResult run_cases(const std::vector<Case>& plan, const Limits& limits, const Output& output,
+                    const Context& context, const Machine& machine) {
   const auto start = std::chrono::steady_clock::now();
-  initialize_benchmark(options.interleave);
-  const Keep keep = options.resume ? Keep::finished : options.append ? Keep::others : Keep::none;
-  auto files = std::make_unique<RecordFiles>(options.out, context, keep);
+  initialize_benchmark(limits.interleave);
+  const Keep keep = output.resume ? Keep::finished : output.append ? Keep::others : Keep::none;
+  auto files = std::make_unique<RecordFiles>(output.folder, context, keep);
   remove_abandoned_folders();
-  NoiseWatch watch(options.retry_noisy, machine);
+  NoiseWatch watch(limits.retry_noisy, machine);
   RunResult result;
   std::vector<std::vector<const Case*>> scenes;
   std::vector<Record> planned;
   for (const Case& c : plan) {
-    Record blank = blank_record(c, options);
+    Record blank = blank_record(c, limits);
     if (const auto earlier = files->finished(blank)) {
       watch.learn(*earlier);
       ++result.earlier;
@@ -321,12 +322,12 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
     scenes.back().push_back(&c);
     planned.push_back(std::move(blank));
   }
-  Progress progress(std::move(planned), [&options](const std::vector<Record>& cases) {
-    const PastRecords past = read_committed_records(cases, options.out);
-    return expected_seconds(forecast(cases, past.records, limits_of(options)));
+  Progress progress(std::move(planned), [&](const std::vector<Record>& cases) {
+    const PastRecords past = read_committed_records(cases, output.folder);
+    return expected_seconds(forecast(cases, past.records, limits_of(limits, plan)));
   });
   for (const auto& cases : scenes) {
-    SceneRunner run(cases, options, *files, progress, watch, result.times);
+    SceneRunner run(cases, limits, output.folder, *files, progress, watch, result.times);
     try {
       run.run();
     } catch (const Interrupted&) {

@@ -43,17 +43,18 @@ struct RunResult {
 };
 
 // Prints progress to standard error. Throws FileError, Interrupted; the records so far are on disk.
-RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context,
-                    const Machine& machine = this_machine());
+RunResult run_cases(const std::vector<Case>& plan, const Limits& limits, const Output& output,
+                    const Context& context, const Machine& machine = this_machine());
 
 // The cases whose names match Google Benchmark's filter, an unanchored regular expression; a
 // leading '-' inverts it. Throws UsageError if the expression is invalid.
 std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave);
 
-int least_repetitions(const Options& options);
-int most_repetitions(const Options& options);
-RunLimits limits_of(const Options& options);
+int least_repetitions(const Limits& limits);
+int most_repetitions(const Limits& limits);
+// For the forecast of the cases.
+RunLimits limits_of(const Limits& limits, const std::vector<Case>& plan);
 // False after the most repetitions or long_case_s, and after the least if the precision is reached.
-bool is_repeated(const Record& record, const Options& options);
+bool is_repeated(const Record& record, const Limits& limits);
 
 }  // namespace airybench

@@ -15,10 +15,9 @@ namespace airybench {
 namespace {
 
 // Solves for F_C, G and u to rounding; returns the relative change of F_C in the next step.
-double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
-                                 const LoadScale& scale, const Eigen::VectorXd& start,
-                                 const MultifrontalFactor& factor, Reference& reference,
-                                 Refined& refined) {
+double solve_contact_to_rounding(const HybridizedSystemIn<Wide>& system, const LoadScale& scale,
+                                 const Eigen::VectorXd& start, const MultifrontalFactor& factor,
+                                 Reference& reference, Refined& refined) {
   constexpr int most_steps = 20;
   const Eigen::MatrixXd& D = reference.condensed.D;
   const ContactPoints& contact = reference.condensed.points;
@@ -27,7 +26,7 @@ double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
   double error = 0, best = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && F.allFinite(); ++step) {
     refine(system, factor, F, at_F);
-    const LongVector u = at_F.u.tail(system.n_c);
+    const WideVector u = at_F.u.tail(system.n_c);
     const Eigen::VectorXd r = relative_to_gap(contact, u).cast<double>();
     const double residual =
         scale.relative_force(natural_map_of(contact, D.diagonal(), F, r).norm(), F.norm());
@@ -54,7 +53,7 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
                             StartIs start_is) {
   const Problem& problem = *airy.problem;
   const LoadScale scale = load_scale(problem);
-  const auto system = assemble_hybridized<long double>(problem, airy.contact);
+  const auto system = assemble_hybridized<Wide>(problem, airy.contact);
   ElementMatrices K = rounded<double>(system.K);
   MultifrontalStiffness factor(K, system.n_c);
   factor.analyse();

@@ -1,7 +1,7 @@
 // The answer that every method's error is measured against: the hybridized solution of the same
-// discrete problem (hybridized.hpp), refined in long double.
+// discrete problem (hybridized.hpp), refined in Wide.
 //
-// Element matrices, residuals and stresses are long double; the double factor of K serves only for
+// Element matrices, residuals and stresses are Wide; the double factor of K serves only for
 // corrections (refinement.hpp). For contact forces F the refined system gives ū_C(F). The law is
 // first solved with D and G from the factor, as methods do. Active-set steps with r from the
 // refined system follow until the natural map no longer halves (a defect correction: D is off by

@@ -64,7 +64,6 @@ struct Method {
   // Of an iterative method: the harness starts with this tolerance per target error and tightens
   // it until the target is met. Zero: its error does not follow RunControl::tolerance.
   double first_tolerance = 0;
-  std::optional<double> target_error = {};  // replaces the run's
   double paper_tolerance = 0;  // RunControl::tolerance with the paper's stop; zero: it has its own
   AccuracyKnob knob = AccuracyKnob::none;
   // Chooses parameters for a problem, outside the time of the solve; null: there are none. `solve`

@@ -30,7 +30,7 @@ using CheckContact =
 
 // The larger of ‖δx‖_S and |δx·(r − Cᵀ δλ)| / ‖δx‖_S.
 double error_norm(const DualSystem& system, const SaddleVector& delta, double norm,
-                  const LongVector& r) {
+                  const WideVector& r) {
   const double work = delta.x.dot(r.cast<double>()) - delta.lambda_F.dot(system.C_F * delta.x) -
                       delta.lambda_C.dot(system.C_C * delta.x);
   return norm == 0 ? 0 : larger_error(norm, std::abs(work) / norm);
@@ -71,8 +71,7 @@ Correction correction(const Checked& of, const AiryResidual& at, const Eigen::Ve
 }
 
 LongSaddleVector in_long(const SaddleVector& answer) {
-  return {answer.x.cast<long double>(), answer.lambda_F.cast<long double>(),
-          answer.lambda_C.cast<long double>()};
+  return {answer.x.cast<Wide>(), answer.lambda_F.cast<Wide>(), answer.lambda_C.cast<Wide>()};
 }
 
 // The residual of a corrected answer, from the one before: r ← r − [S Cᵀ; C 0] δ, in double. Of a
@@ -82,15 +81,15 @@ void subtract_product(const DualSystem& system, const Correction& of, LongSaddle
   Eigen::VectorXd product = of.S_delta;
   product.noalias() += system.C_F.transpose() * delta.lambda_F;
   product.noalias() += system.C_C.transpose() * delta.lambda_C;
-  r.x -= product.cast<long double>();
-  r.lambda_F -= (system.C_F * delta.x).cast<long double>();
-  r.lambda_C -= (system.C_C * delta.x).cast<long double>();
+  r.x -= product.cast<Wide>();
+  r.lambda_F -= (system.C_F * delta.x).cast<Wide>();
+  r.lambda_C -= (system.C_C * delta.x).cast<Wide>();
 }
 
 void add(LongSaddleVector& answer, const SaddleVector& delta) {
-  answer.x += delta.x.cast<long double>();
-  answer.lambda_F += delta.lambda_F.cast<long double>();
-  answer.lambda_C += delta.lambda_C.cast<long double>();
+  answer.x += delta.x.cast<Wide>();
+  answer.lambda_F += delta.lambda_F.cast<Wide>();
+  answer.lambda_C += delta.lambda_C.cast<Wide>();
 }
 
 CheckContact with_D(const contact::Problem& condensed, const LoadScale& scale) {

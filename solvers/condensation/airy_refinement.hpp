@@ -6,7 +6,7 @@
 //   r_F = F − C_F x                     forces on Γ_F, N
 //   r_C = F_C − F0 − C_C x              forces on Γ_C, N
 //
-// are formed element by element in long double, from the mesh and not from the blocks, so that the
+// are formed element by element in Wide, from the mesh and not from the blocks, so that the
 // blocks' own rounding is seen too; a check takes what further corrections do to them off in
 // double. One more solve with the method's own factors or iterations,
 //

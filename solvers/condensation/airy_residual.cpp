@@ -12,9 +12,8 @@
 namespace airybench {
 namespace {
 
-using Long = long double;
 template <int rows>
-using LongColumn = Eigen::Matrix<Long, rows, 1>;
+using WideColumn = Eigen::Matrix<Wide, rows, 1>;
 template <typename Scalar>
 using Column = Eigen::VectorX<Scalar>;
 
@@ -40,11 +39,11 @@ void scatter(const DualSystem& system, const std::array<int, count>& dofs, const
 
 // Moves sums of such terms as rounding may have: to which side is as good as random,
 // and the same in every run.
-void add_rounding(const Eigen::VectorXd& terms, int number, LongVector& r) {
+void add_rounding(const Eigen::VectorXd& terms, int number, WideVector& r) {
   std::minstd_rand sign(static_cast<unsigned>(number) + 1);
-  constexpr Long part = std::numeric_limits<Long>::epsilon() / 4;
+  constexpr Wide part = std::numeric_limits<Wide>::epsilon() / 4;
   for (Eigen::Index i = 0; i < r.size(); ++i)
-    r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Long(terms(i));
+    r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Wide(terms(i));
 }
 
 template <typename Scalar>
@@ -68,16 +67,16 @@ TriangleStress<Scalar> homogeneous_stress(const DualSystem& system, const Column
   return {of_dofs, of_dofs.stress(phi), dofs};
 }
 
-TriangleStress<Long> triangle_stress(const DualSystem& system, const LongVector& x, int t) {
+TriangleStress<Wide> triangle_stress(const DualSystem& system, const WideVector& x, int t) {
   const Problem& problem = *system.problem;
-  TriangleStress<Long> result = homogeneous_stress<Long>(system, x, t);
-  if (problem.loads.has_body_force()) result.stress += particular_element_stress<Long>(problem, t);
+  TriangleStress<Wide> result = homogeneous_stress<Wide>(system, x, t);
+  if (problem.loads.has_body_force()) result.stress += particular_element_stress<Wide>(problem, t);
   return result;
 }
 
 // The rows of one boundary edge: forces at its ends as functionals of φ.
 struct EdgeRows {
-  EdgeForcesIn<Long> forces;
+  EdgeForcesIn<Wide> forces;
   std::array<int, 7> dofs;
 };
 
@@ -85,22 +84,22 @@ EdgeRows edge_rows(const DualSystem& system, int row) {
   const Problem& problem = *system.problem;
   const auto [a, b] = problem.mesh.boundary[row].vertices;
   const auto &xa = problem.mesh.vertices[a], &xb = problem.mesh.vertices[b];
-  return {edge_forces<Long>(xa, xb, a < b ? 1 : -1),
+  return {edge_forces<Wide>(xa, xb, a < b ? 1 : -1),
           system.dofs.of_edge_walk(a, b, problem.edges.of_boundary[row])};
 }
 
 // Adds what an edge's displacements ū, x and y at its two ends, do to r.
-void add_displacements(const DualSystem& system, const EdgeRows& edge, const LongColumn<4>& u,
-                       LongVector& r) {
-  scatter(system, edge.dofs, LongColumn<7>(edge.forces.transpose() * u), r);
+void add_displacements(const DualSystem& system, const EdgeRows& edge, const WideColumn<4>& u,
+                       WideVector& r) {
+  scatter(system, edge.dofs, WideColumn<7>(edge.forces.transpose() * u), r);
 }
 
-void add_prescribed_displacements(const DualSystem& system, LongVector& r) {
+void add_prescribed_displacements(const DualSystem& system, WideVector& r) {
   const Problem& problem = *system.problem;
   if (!problem.loads.displacement_mm) return;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
-    const LongColumn<4> u = problem.prescribed_moments(row).reshaped().cast<Long>();
+    const WideColumn<4> u = problem.prescribed_moments(row).reshaped().cast<Wide>();
     add_displacements(system, edge_rows(system, row), u, r);
   }
 }
@@ -113,23 +112,23 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
   const auto visit = [&](int row) {
     const EdgeCondition condition = system.problem->condition(row);
     const EdgeRows edge = edge_rows(system, row);
-    const LongColumn<4> forces = edge.forces * gather<Long>(system, answer.x, edge.dofs);
-    LongColumn<4> u = LongColumn<4>::Zero();  // −λ in x and y
+    const WideColumn<4> forces = edge.forces * gather<Wide>(system, answer.x, edge.dofs);
+    WideColumn<4> u = WideColumn<4>::Zero();  // −λ in x and y
     for (int end = 0; end < 2; ++end) {
-      const EdgeFrameIn<Long> frame = system.problem->frame_of_moment<Long>(row, 1, end);
+      const EdgeFrameIn<Wide> frame = system.problem->frame_of_moment<Wide>(row, 1, end);
       for (int k = 0; k < 2; ++k) {
         if (condition.component[k] == Known::displacement ||
             system.problem->free.pins_down(row, end, k))
           continue;
-        const Eigen::Vector2<Long> axis = condition.in_frame
+        const Eigen::Vector2<Wide> axis = condition.in_frame
                                               ? (k == 0 ? frame.normal : frame.tangent)
-                                              : Eigen::Vector2<Long>(k == 0, k == 1);
-        const Long force = axis.dot(forces.segment<2>(2 * end));
+                                              : Eigen::Vector2<Wide>(k == 0, k == 1);
+        const Wide force = axis.dot(forces.segment<2>(2 * end));
         const bool condensed = condition.component[k] == Known::contact_law;
-        const Long lambda = condensed ? answer.lambda_C(row_C) : answer.lambda_F(row_F);
+        const Wide lambda = condensed ? answer.lambda_C(row_C) : answer.lambda_F(row_F);
         u.segment<2>(2 * end) -= lambda * axis;
         if (condensed) {
-          const Long F0 = system.F0.size() > 0 ? system.F0(row_C) : 0;
+          const Wide F0 = system.F0.size() > 0 ? system.F0(row_C) : 0;
           residual.lambda_C(row_C) = F_C(row_C) - F0 - force;
           ++row_C;
         } else {
@@ -169,15 +168,15 @@ Eigen::VectorXd residual_terms(const DualSystem& system, const Eigen::VectorXd& 
 AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& answer,
                            const Eigen::VectorXd& F_C, int number) {
   const Problem& problem = *system.problem;
-  LongSaddleVector residual{LongVector::Zero(system.n()), LongVector::Zero(system.n_f()),
-                            LongVector::Zero(system.n_c())};
-  Long stress_squared = 0;
+  LongSaddleVector residual{WideVector::Zero(system.n()), WideVector::Zero(system.n_f()),
+                            WideVector::Zero(system.n_c())};
+  Wide stress_squared = 0;
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const TriangleStress<Long> at = triangle_stress(system, answer.x, t);
-    const ElementStressIn<Long> dual =
-        stress_dual<Long>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
+    const TriangleStress<Wide> at = triangle_stress(system, answer.x, t);
+    const ElementStressIn<Wide> dual =
+        stress_dual<Wide>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
     stress_squared += at.stress.cwiseProduct(dual).sum();
-    scatter(system, at.dofs, LongColumn<12>(-at.of_dofs.transposed(dual)), residual.x);
+    scatter(system, at.dofs, WideColumn<12>(-at.of_dofs.transposed(dual)), residual.x);
   }
   add_prescribed_displacements(system, residual.x);
   add_boundary_forces(system, answer, F_C, residual);
@@ -200,7 +199,7 @@ AiryProduct airy_product(const DualSystem& system, const Eigen::VectorXd& x) {
   return result;
 }
 
-StressField airy_stress(const DualSystem& system, const LongVector& x) {
+StressField airy_stress(const DualSystem& system, const WideVector& x) {
   StressField field(system.problem->mesh.triangles.size());
   for (int t = 0; t < static_cast<int>(field.size()); ++t)
     field[t] = triangle_stress(system, x, t).stress.cast<double>();

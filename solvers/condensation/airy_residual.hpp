@@ -1,4 +1,4 @@
-// Residuals of the discrete system in the Airy function (dual_system.hpp), in long double and
+// Residuals of the discrete system in the Airy function (dual_system.hpp), in Wide and
 // straight from the mesh.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace airybench {
 
 // x: scaled Airy unknowns; λ, λ' as in DualSystem. Also the residuals of their equations.
 struct LongSaddleVector {
-  LongVector x, lambda_F, lambda_C;
+  WideVector x, lambda_F, lambda_C;
 };
 
 struct AiryResidual {
@@ -18,7 +18,7 @@ struct AiryResidual {
 };
 
 // r, r_F, r_C as in airy_refinement.hpp, and r moved by about as much as it is uncertain: by ± the
-// rounding of a long double in the terms |σ(φ_i)|:|C|:Σ|σ(φ_j) φ_j| that it sums. So corrections do
+// rounding of a Wide in the terms |σ(φ_i)|:|C|:Σ|σ(φ_j) φ_j| that it sums. So corrections do
 // not fall below what rounding, through the system's condition, makes of the answer. number: of the
 // correction; each has other signs.
 AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& answer,
@@ -34,6 +34,6 @@ struct AiryProduct {
 AiryProduct airy_product(const DualSystem& system, const Eigen::VectorXd& x);
 
 // The stresses of x, rounded to double.
-StressField airy_stress(const DualSystem& system, const LongVector& x);
+StressField airy_stress(const DualSystem& system, const WideVector& x);
 
 }  // namespace airybench

@@ -37,9 +37,9 @@ template struct HybridizedSystemIn<double>;
 template HybridizedSystemIn<double> assemble_hybridized(const Problem&, const ContactPoints&);
 template void set_load_case(const Problem&, HybridizedSystemIn<double>&);
 
-template struct HybridizedSystemIn<long double>;
-template HybridizedSystemIn<long double> assemble_hybridized(const Problem&, const ContactPoints&);
-template StressField hybridized_stress(const Problem&, const HybridizedSystemIn<long double>&,
-                                       const Eigen::VectorX<long double>&);
+template struct HybridizedSystemIn<Wide>;
+template HybridizedSystemIn<Wide> assemble_hybridized(const Problem&, const ContactPoints&);
+template StressField hybridized_stress(const Problem&, const HybridizedSystemIn<Wide>&,
+                                       const Eigen::VectorX<Wide>&);
 
 }  // namespace airybench

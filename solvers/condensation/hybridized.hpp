@@ -20,8 +20,8 @@
 // D, G and F_C are the same numbers as from the Airy system, without its ill-conditioning: the
 // scaled condition number grows like h⁻², not h⁻⁴. No gauge, no multipliers.
 //
-// Templates over the scalar are instantiated for double and long double: HYBRID works in
-// double, the reference refines in long double (refinement.hpp); tests check both in 128 bits. The
+// Templates over the scalar are instantiated for double and Wide: HYBRID works in
+// double, the reference refines in Wide (refinement.hpp); tests check both in 128 bits. The
 // data are doubles in all of them: coordinates, compliances, ū0, forces on Γ_F.
 #pragma once
 

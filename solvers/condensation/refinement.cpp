@@ -6,22 +6,22 @@
 
 namespace airybench {
 
-void refine(const HybridizedSystemIn<long double>& system, const MultifrontalFactor& factor,
+void refine(const HybridizedSystemIn<Wide>& system, const MultifrontalFactor& factor,
             const Eigen::VectorXd& F_C, Refined& refined) {
   constexpr int most_corrections = 30;
   if (refined.u.size() == 0) refined.u.setZero(system.b.size());
-  LongVector load = system.b;
-  load.tail(system.n_c) += F_C.cast<long double>();
+  WideVector load = system.b;
+  load.tail(system.n_c) += F_C.cast<Wide>();
   double before = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_corrections; ++step) {
-    LongVector product = LongVector::Zero(load.size());
+    WideVector product = WideVector::Zero(load.size());
     add_product(system.K, refined.u, product);
     const Eigen::VectorXd r = (load - product).cast<double>();
     Eigen::VectorXd correction = r;
     factor.solve_in_place(correction);
     refined.last_correction = std::sqrt(std::max(0.0, r.dot(correction)));
     if (!(refined.last_correction < before / 2)) break;
-    refined.u += correction.cast<long double>();
+    refined.u += correction.cast<Wide>();
     ++refined.corrections;
     if (refined.last_correction == 0) break;
     before = refined.last_correction;

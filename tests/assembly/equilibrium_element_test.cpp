@@ -81,7 +81,7 @@ template <int k>
 void count_modes(int modes, int inner) {
   EXPECT_EQ(StressDegree<k>::modes, modes);
   EXPECT_EQ(StressDegree<k>::inner, inner);
-  const ReferenceElement<long double> element(k);
+  const ReferenceElement<Wide> element(k);
   Eigen::MatrixXd all(3 * StressDegree<k>::coefficients, modes);
   for (int c = 0; c < 3; ++c)
     all.middleRows(StressDegree<k>::coefficients * c, StressDegree<k>::coefficients) =
@@ -99,7 +99,7 @@ TEST(EquilibriumElement, HasAsManyStressesAsCounted) {
 
 template <int k>
 void check_equilibrium() {
-  const ReferenceElement<long double> element(k);
+  const ReferenceElement<Wide> element(k);
   const Triangle v = triangle(0, 0, 1, 0, 0, 1);
   const Eigen::Vector2d centroid = v.rowwise().mean();
   const int n = StressDegree<k>::third;
@@ -292,7 +292,7 @@ void check_long_double() {
     for (const Triangle& v : random_triangles(3)) {
       const Eigen::Matrix3d C = compliance({210000, poisson}, Plane::strain);
       const Eigen::MatrixXd exact =
-          EquilibriumElement<long double, k>(v, C).stiffness().template cast<double>();
+          EquilibriumElement<Wide, k>(v, C).stiffness().template cast<double>();
       EXPECT_LT((Element<k>(v, C).stiffness() - exact).norm(), 1e-11 * exact.norm()) << k;
     }
 }

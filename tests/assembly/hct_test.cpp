@@ -11,6 +11,7 @@
 #include "assembly/elasticity.hpp"
 #include "assembly/hct_action.hpp"
 #include "mesh/mesh.hpp"
+#include "support/wide.hpp"
 #include "tests/support/dense_algebra.hpp"
 
 namespace airybench::hct_test {
@@ -233,7 +234,7 @@ void expect_action_of_matrix(const Shape& shape, double rounding) {
 TEST(Hct, ActionIsTheProductWithTheMatrixAndWithItsTranspose) {
   for (const Shape& shape : shapes()) {
     expect_action_of_matrix<double>(shape, 1e-14);
-    expect_action_of_matrix<long double>(shape, 1e-17);
+    expect_action_of_matrix<Wide>(shape, 1e-17);
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "support/wide.hpp"
+
 namespace airybench::small_cholesky_test {
 namespace {
 
@@ -33,7 +35,7 @@ struct Of {
   using Scalar = Number;
   static constexpr int n = rows;
 };
-using Sizes = ::testing::Types<Of<double, 3>, Of<double, 9>, Of<long double, 9>>;
+using Sizes = ::testing::Types<Of<double, 3>, Of<double, 9>, Of<Wide, 9>>;
 TYPED_TEST_SUITE(SmallCholeskyOf, Sizes);
 
 TYPED_TEST(SmallCholeskyOf, FactorisesAndSolves) {

@@ -5,7 +5,6 @@
 #include "bench/records/journal.hpp"
 #include "bench/records/record.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/report/tracker_formats.hpp"
 #include "tests/fuzz/readers.hpp"
 
 namespace airybench::fuzz {
@@ -24,7 +23,6 @@ void record(const std::string& text) {
   lines.add(text);
   for (const Record& record : records) csv_row(record);
   google_benchmark_json(records);
-  junit_xml(records);
   for (Record& record : records) summarise(record);
 }
 

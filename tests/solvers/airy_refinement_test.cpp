@@ -131,7 +131,7 @@ std::vector<Scene> scenes() {
   return all;
 }
 
-LongVector in_long(const VectorXd& v) { return v.cast<long double>(); }
+WideVector in_long(const VectorXd& v) { return v.cast<Wide>(); }
 
 TEST(AiryResidual, IsThatOfTheBlocksForAnyVector) {
   int number = 0;
@@ -144,7 +144,7 @@ TEST(AiryResidual, IsThatOfTheBlocksForAnyVector) {
                    lambda_C = VectorXd::Random(s.n_c()), F_C = VectorXd::Random(s.n_c());
     const LongSaddleVector r =
         airy_residual(s, {in_long(x), in_long(lambda_F), in_long(lambda_C)}, F_C).residual;
-    const auto expect_same = [](const LongVector& found, const VectorXd& by_blocks) {
+    const auto expect_same = [](const WideVector& found, const VectorXd& by_blocks) {
       ASSERT_EQ(found.size(), by_blocks.size());
       EXPECT_LE((found.cast<double>() - by_blocks).norm(), 1e-10 * by_blocks.norm());
     };

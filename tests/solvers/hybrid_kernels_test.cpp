@@ -117,7 +117,7 @@ void check_values() {
   constexpr double tolerance = 4e-12 * (1 << k);
   const Problem problem = loaded_problem(4, 4);
   auto inputs = inputs_of<k>(problem);
-  auto exact = inputs_of<k, long double>(problem);
+  auto exact = inputs_of<k, Wide>(problem);
   for (const std::size_t t : {3, 20}) {
     make_sliver(inputs[t], 0.03);
     make_sliver(exact[t], 0.03);
@@ -126,11 +126,11 @@ void check_values() {
   const std::vector<double> displacement = displacements<k>(inputs.size());
   constexpr int size = StressDegree<k>::size;
   for (std::size_t t = 0; t < inputs.size(); ++t) {
-    const HybridStiffness<long double, k> stiffness = hybrid_stiffness(exact[t], true);
-    const Eigen::Matrix<long double, size, 1> u =
+    const HybridStiffness<Wide, k> stiffness = hybrid_stiffness(exact[t], true);
+    const Eigen::Matrix<Wide, size, 1> u =
         Eigen::Map<const Eigen::Matrix<double, size, 1>>(&displacement[size * t])
-            .template cast<long double>();
-    const HybridStress<long double, k> stress = hybrid_stress(exact[t], true, u);
+            .template cast<Wide>();
+    const HybridStress<Wide, k> stress = hybrid_stress(exact[t], true, u);
     EXPECT_LT(distance(results.stiffness[t].lower, stiffness.lower), tolerance) << k << ' ' << t;
     // f_e is small against the forces of σ_p.
     using Particular = Eigen::Map<const Eigen::Matrix3d>;

@@ -21,7 +21,7 @@ def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False, sticks=False, p
     """F with r = D F + b; None: no convergence. pulled: limit of |F_t| where F_n > 0."""
     components, F = len(b) // len(mu), np.zeros(len(b))
     fixed = int(mistake.removeprefix("sweeps=")) if mistake.startswith("sweeps=") else 0
-    for _ in range(fixed or 50000):
+    for _ in range(fixed or 5000):  # 2000 are right to rounding where there is a solution
         before = F.copy()
         for p, friction in enumerate(mu):
             n = components * p

@@ -6,11 +6,42 @@
 
 namespace airybench::testing {
 
+// The cases of one problem, in a scene without a name, as a run with these options, which must
+// outlive it, asks for them.
+class CaseBench : public Workbench {
+ public:
+  CaseBench(std::shared_ptr<const Problem> problem, const Options& options)
+      : Workbench(problem, common_settings(options.run), options.limits),
+        scene_{"", "", "", "", "{}", std::move(problem)},
+        run_(options.run) {}
+
+  using Workbench::examine;
+  Examination examine(const Method& method, const std::filesystem::path& fields) {
+    return examine(asked(method), fields);
+  }
+  Examination examine(const Method& method, const StudyPoint& point) {
+    Case c = asked(method);
+    c.settings = point.settings;
+    c.knob = point.knob;
+    return examine(c, {});
+  }
+
+ private:
+  Case asked(const Method& method) const {
+    return {.posed = scene_,
+            .method = method,
+            .settings = common_settings(run_),
+            .study = run_.study.name,
+            .points = std::string(name_of(run_.study.points))};
+  }
+  PosedScene scene_;
+  RunSettings run_;
+};
+
 inline Record examined(std::shared_ptr<const Problem> problem, const Method& method,
                        Options options = {}) {
-  options.repetitions = 1;
-  Workbench bench(std::move(problem), options);
-  return bench.examine(method, {}).record;
+  options.limits.repetitions = 1;
+  return CaseBench(std::move(problem), options).examine(method, "").record;
 }
 inline Record examined(std::shared_ptr<const Problem> problem, const char* method,
                        const Options& options = {}) {
@@ -20,9 +51,9 @@ inline Record examined(std::shared_ptr<const Problem> problem, const char* metho
 // The same with its memory run and one timed run.
 inline Record measured(std::shared_ptr<const Problem> problem, const Method& method) {
   Options options;
-  options.repetitions = 1;
-  Workbench bench(std::move(problem), options);
-  auto [record, choice, log] = bench.examine(method, {});
+  options.limits.repetitions = 1;
+  CaseBench bench(std::move(problem), options);
+  auto [record, choice, log] = bench.examine(method, "");
   if (!is_measured(record)) return record;
   bench.measure_memory(method, choice, record);
   add_run(bench.measure_time(method, choice), record);

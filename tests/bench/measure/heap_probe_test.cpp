@@ -13,13 +13,13 @@
 
 #include "assembly/scene.hpp"
 #include "bench/measure/environment.hpp"
-#include "bench/measure/workbench.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
 #include "solvers/uzawa/accelerated_lagrangian.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -231,8 +231,8 @@ class MemoryRun : public ::testing::TestWithParam<const char*> {
  protected:
   MemoryRun() {
     set_threads(1);  // OpenBLAS's threads end the process when they get no memory
-    options_.repetitions = 1;
-    options_.target_error = 0.1;  // memory is measured here, digits are not
+    options_.limits.repetitions = 1;
+    options_.run.cases.target_error = 0.1;  // memory is measured here, digits are not
   }
   Options options_;
   const Method method_ = select_methods(GetParam()).front();
@@ -246,8 +246,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun,
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
-  Workbench bench(testing::posed(Scene{}, testing::small_tooth(16, 12)), options_);
-  auto [record, choice, log] = bench.examine(method_, {});
+  testing::CaseBench bench(testing::posed(Scene{}, testing::small_tooth(16, 12)), options_);
+  auto [record, choice, log] = bench.examine(method_, "");
   bench.measure_memory(method_, choice, record);
   ASSERT_EQ(record.status, Status::ok) << record.status_reason;
   const std::int64_t least = record.storage_bytes.value() + record.blocks_heap_bytes.value();
@@ -260,31 +260,31 @@ TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
 
 TEST(HeapProbe, AssemblyThatIsRefusedMemoryIsOutOfMemory) {
   Options options;
-  options.repetitions = 1;
-  Workbench bench(testing::posed(Scene{}, testing::small_tooth(16, 12)), options);
+  options.limits.repetitions = 1;
+  testing::CaseBench bench(testing::posed(Scene{}, testing::small_tooth(16, 12)), options);
   const Method method = select_methods("3STEPD").front();
   {
     const heap::Limit limit(heap::live_bytes());
-    const Record refused = bench.examine(method, {}).record;
+    const Record refused = bench.examine(method, "").record;
     EXPECT_EQ(refused.status, Status::out_of_memory) << refused.status_reason;
     EXPECT_EQ(refused.status_reason, "assembly: an allocation was refused");
   }
-  EXPECT_EQ(bench.examine(method, {}).record.status, Status::ok);
+  EXPECT_EQ(bench.examine(method, "").record.status, Status::ok);
 }
 
 // Wherever memory runs out, the case is out_of_memory and the process goes on.
 TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
-  Workbench bench(testing::posed(Scene{}, testing::small_tooth(10, 8)), options_);
-  auto [free, choice, log] = bench.examine(method_, {});
+  testing::CaseBench bench(testing::posed(Scene{}, testing::small_tooth(10, 8)), options_);
+  auto [free, choice, log] = bench.examine(method_, "");
   bench.measure_memory(method_, choice, free);
   const std::int64_t peak = free.peak_heap_bytes.value();
   for (int part = 0; part < 60; ++part) {
-    options_.memory_limit_bytes = peak * part / 60;
-    const Record record = bench.examine(method_, {}).record;
+    options_.limits.memory_limit_bytes = peak * part / 60;
+    const Record record = bench.examine(method_, "").record;
     EXPECT_EQ(record.status, Status::out_of_memory) << part << "/60 of " << peak;
   }
-  options_.memory_limit_bytes = peak + MiB;
-  EXPECT_EQ(bench.examine(method_, {}).record.status, Status::ok);
+  options_.limits.memory_limit_bytes = peak + MiB;
+  EXPECT_EQ(bench.examine(method_, "").record.status, Status::ok);
 }
 
 TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {

@@ -227,7 +227,7 @@ TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
   const auto examined_in = [&](int steps, const char* method) {
     scene.equal_steps = steps;
     Options options;
-    options.fields = true;
+    options.run.cases.fields = true;
     return examined(testing::posed(scene), method, options);
   };
   for (const char* method : {"HYBRID", "P2", "P3"}) {
@@ -252,7 +252,7 @@ TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
 // u_t is less what slipped before: the way back would else have an error of its past.
 TEST(LoadStepRuns, WithFrictionTheErrorOfAStepIsOfItsOwnSlip) {
   Options options;
-  options.fields = true;
+  options.run.cases.fields = true;
   for (const char* method : {"HYBRID", "HYBRID:k=3", "P2", "P3"}) {
     const Record record = examined(sheared_and_back(), method, options);
     ASSERT_EQ(record.steps.size(), 3u);

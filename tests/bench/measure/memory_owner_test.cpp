@@ -11,9 +11,9 @@
 #include "assembly/scene.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/measure/solve_watch.hpp"
-#include "bench/measure/workbench.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/base/parallel.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 
@@ -240,12 +240,12 @@ INSTANTIATE_TEST_SUITE_P(Methods, CountedMemory,
 
 TEST_P(CountedMemory, IsWhatIsMeasured) {
   Options options;
-  options.repetitions = 1;
+  options.limits.repetitions = 1;
   const Method method = select_methods(GetParam()).front();
   // Ten times the iterations of the others.
   const char* mesh = method.name.ends_with("schur=sparse") ? "Mesh0" : "Mesh1";
-  Workbench bench(testing::posed(Scene{}, testing::catalogue_mesh(mesh)), options);
-  auto [record, choice, log] = bench.examine(method, {});
+  testing::CaseBench bench(testing::posed(Scene{}, testing::catalogue_mesh(mesh)), options);
+  auto [record, choice, log] = bench.examine(method, "");
   bench.measure_memory(method, choice, record);
   ASSERT_TRUE(record.memory_count_ratio) << record.status_reason;
   EXPECT_FALSE(record.memory_counts_differ) << record.memory_by_owner.dump(1);

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <tuple>
 
-#include "bench/measure/workbench.hpp"
 #include "support/errors.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/two_blocks.hpp"
@@ -34,9 +34,9 @@ std::shared_ptr<const Problem> path_of(int steps) {
 
 Record examined(int steps, const fs::path& file, const char* method = "HYBRID") {
   Options options;
-  options.repetitions = 1;
-  options.fields = true;
-  Workbench bench(path_of(steps), options);
+  options.limits.repetitions = 1;
+  options.run.cases.fields = true;
+  testing::CaseBench bench(path_of(steps), options);
   return bench.examine(select_methods(method).front(), file).record;
 }
 
@@ -127,10 +127,10 @@ TEST(StepFields, OfTwoBodiesForcesAndMotionAreThoseOfTheMovedOne) {
     scene.later_steps.resize(1);
     scene.later_steps[0].boundary[support].displacement_mm = constant(way * motions[1]);
     Options options;
-    options.repetitions = 1;
-    options.fields = true;
+    options.limits.repetitions = 1;
+    options.run.cases.fields = true;
     const fs::path name = folder / support;
-    Workbench bench(testing::posed(scene, testing::two_blocks(7, 10)), options);
+    testing::CaseBench bench(testing::posed(scene, testing::two_blocks(7, 10)), options);
     const Record record = bench.examine(select_methods("HYBRID").front(), name).record;
     ASSERT_EQ(record.status, Status::ok) << record.status_reason;
     const fs::path table = name.string() + ".steps.csv";

@@ -10,7 +10,7 @@ constexpr double next_to_nothing_s = 1e-9, plenty_s = 1000;
 
 Record examined(const Method& method, std::optional<double> budget_s) {
   Options options;
-  options.tuning_budget_s = budget_s;
+  options.limits.tuning_budget_s = budget_s;
   return testing::examined(testing::posed(Scene(), testing::small_tooth(6, 4)), method, options);
 }
 
@@ -65,12 +65,12 @@ TEST(TuningBudget, AGridThatWasCutKeepsItsBest) {
 }
 
 TEST(TuningBudget, IsTheLimitOfTuningAlone) {
-  Options options;
-  options.timeout_s = 5;
-  EXPECT_EQ(run_limit_s(Activity::tuning, options), 5);
-  options.tuning_budget_s = 7;
-  EXPECT_EQ(run_limit_s(Activity::tuning, options), 7);
-  EXPECT_EQ(run_limit_s(Activity::detail_run, options), 5);
+  Limits limits;
+  limits.timeout_s = 5;
+  EXPECT_EQ(run_limit_s(Activity::tuning, limits), 5);
+  limits.tuning_budget_s = 7;
+  EXPECT_EQ(run_limit_s(Activity::tuning, limits), 7);
+  EXPECT_EQ(run_limit_s(Activity::detail_run, limits), 5);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "assembly/scene.hpp"
-#include "bench/measure/workbench.hpp"
 #include "bench/plan/plan.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/record_files.hpp"
@@ -16,6 +15,7 @@
 #include "bench/records/summary.hpp"
 #include "bench/run/runner.hpp"
 #include "mesh/msh_format.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
@@ -32,6 +32,13 @@ std::shared_ptr<const Problem> mesh0() {
   return problem;
 }
 
+Options options_of(const std::string& study) {
+  Options options;
+  options.run.study = *study_named(study);
+  options.limits.repetitions = 1;
+  return options;
+}
+
 TEST(Study, PointsTurnTheKnobOfTheMethod) {
   for (const auto& [name, knob] : {std::pair{"SDTIC6", "tolerance"},
                                    {"3STEPCG6", "tolerance"},
@@ -39,16 +46,16 @@ TEST(Study, PointsTurnTheKnobOfTheMethod) {
     SCOPED_TRACE(name);
     std::set<double> values;
     int at_paper_stop = 0;
-    for (const TurnedMethod& point : error_points(method(name))) {
-      EXPECT_EQ(point.method.name, name);
-      EXPECT_EQ(point.method.is_iterative(), method(name).is_iterative());
-      EXPECT_FALSE(point.method.is_tightened());  // the harness must not tighten it
-      if (point.knob.value) {
-        EXPECT_EQ(point.knob.name, knob);
-        EXPECT_FALSE(point.knob.stop);
-        EXPECT_TRUE(values.insert(*point.knob.value).second);
+    for (const auto& [own, settings] : error_points(method(name), {})) {
+      EXPECT_FALSE(settings.tightened);
+      if (own.value) {
+        EXPECT_EQ(own.name, knob);
+        EXPECT_EQ(settings.stop, Stop::target);
+        EXPECT_EQ(own.name == "tolerance" ? *settings.tolerance : *settings.max_iterations,
+                  *own.value);
+        EXPECT_TRUE(values.insert(*own.value).second);
       } else {
-        EXPECT_EQ(point.knob.stop, Stop::paper);
+        EXPECT_EQ(settings.stop, Stop::paper);
         ++at_paper_stop;
       }
     }
@@ -58,40 +65,36 @@ TEST(Study, PointsTurnTheKnobOfTheMethod) {
 }
 
 TEST(Study, AnUnparametrisedAlmHasItsOwnAndThePapersStop) {
-  const auto points = error_points(method("ALM"));
+  const auto points = error_points(method("ALM"), {});
   ASSERT_EQ(points.size(), 2u);
-  EXPECT_FALSE(points[0].knob.stop);
-  EXPECT_EQ(points[1].knob.stop, Stop::paper);
+  EXPECT_EQ(points[0].settings.stop, Stop::target);
+  EXPECT_EQ(points[1].settings.stop, Stop::paper);
 }
 
 TEST(Study, OnlyAMethodWithoutAKnobIsOnePoint) {
   for (const char* name : {"3STEPD", "BLIND:SCHUR", "HYBRID", "P2"}) {
     SCOPED_TRACE(name);
-    const auto points = error_points(method(name));
+    const auto points = error_points(method(name), {});
     ASSERT_FALSE(points.empty());
-    EXPECT_FALSE(points.back().knob.value || points.back().knob.stop);  // the method as it is
+    EXPECT_FALSE(points.back().knob.value);  // the method as it is
+    EXPECT_TRUE(points.back().settings.tightened);
+    EXPECT_EQ(points.back().settings.stop, Stop::target);
     EXPECT_EQ(points.size() == 1, method(name).knob == AccuracyKnob::none);
   }
 }
 
-TEST(Study, ATurnedMethodDoesWhatItsKnobSaysWhateverTheHarnessWants) {
-  const DualSystem system = assemble(mesh0());
-  RunControl control;
-  control.tolerance = 1e-3;
+TEST(Study, AMethodDoesWhatItsPointSays) {
+  const Options options = options_of("error");
+  testing::CaseBench bench(mesh0(), options);
+  const Method symmlq = method("SDTIC3");
   std::int64_t before = 0;
-  for (const TurnedMethod& point : error_points(method("SDTIC3"))) {
-    const Solution solution = run(point.method, system, control);
-    ASSERT_TRUE(solution.linear_iterations) << point.knob.name;
-    EXPECT_GT(*solution.linear_iterations, before) << point.knob.name;
-    before = *solution.linear_iterations;
+  for (const StudyPoint& point : error_points(symmlq, {})) {
+    const Record record = bench.examine(symmlq, point).record;
+    ASSERT_TRUE(record.linear_iterations) << *point.knob.value;
+    EXPECT_GT(*record.linear_iterations, before) << *point.knob.value;
+    EXPECT_TRUE(record.attempts.empty());
+    before = *record.linear_iterations;
   }
-}
-
-Options options_of(const std::string& study) {
-  Options options;
-  options.study = *study_named(study);
-  options.repetitions = 1;
-  return options;
 }
 
 std::vector<PosedScene> scenes(const std::vector<std::string>& names = {"default"}) {
@@ -103,24 +106,31 @@ std::vector<PosedScene> scenes(const std::vector<std::string>& names = {"default
 // Each number of threads is a case that says so; iterative methods are tightened as ever.
 TEST(Study, ScalingHasACaseForEveryNumberOfThreads) {
   Options options = options_of("scaling");
-  options.thread_counts = {1, 2, 4};
-  const auto cases = plan_cases(scenes(), select_methods("HYBRID,SDTIC6"), options);
+  options.run.thread_counts = {1, 2, 4};
+  const auto cases = plan_cases(scenes(), select_methods("HYBRID,SDTIC6"), options.run);
   ASSERT_EQ(cases.size(), 6u);
   EXPECT_EQ(cases[1].name().text(), "Mesh0/default/SDTIC6/study=scaling/threads=2");
-  EXPECT_TRUE(cases[0].method.is_tightened());
   for (const Case& c : cases) {
     EXPECT_TRUE(case_name_of(c.name().text())) << c.name().text();
-    EXPECT_EQ(blank_record(c, Options()).threads, c.knob.value);
-    int threads = 0;
-    Method seen = c.method;
-    seen.solve = [&threads](const DualSystem&, const RunControl& control) {
-      threads = control.threads;
-      return Solution();
-    };
-    const TurnedMethod turned = scaling_points(seen, {*c.knob.threads}).front();
-    turned.method.solve(DualSystem(), RunControl());
-    EXPECT_EQ(threads, c.knob.threads);
+    EXPECT_TRUE(c.settings.tightened);
+    EXPECT_EQ(c.settings.threads, c.knob.value);
+    EXPECT_EQ(blank_record(c, Limits()).threads, c.knob.value);
   }
+}
+
+// The method is told, whatever the run's number is.
+TEST(Study, ACaseRunsWithItsNumberOfThreads) {
+  Options options = options_of("scaling");
+  options.run.cases.threads = 4;
+  int threads = 0;
+  Method seen = method("HYBRID");
+  seen.solve = [&threads](const DualSystem&, const RunControl& control) {
+    threads = control.threads;
+    return Solution();
+  };
+  testing::CaseBench bench(mesh0(), options);
+  bench.examine(seen, scaling_points(common_settings(options.run), {2}).front());
+  EXPECT_EQ(threads, 2);
 }
 
 // Their files say what they need, and no two cases of a plan have one name.
@@ -135,10 +145,10 @@ TEST(Study, AllCanBePlanned) {
   for (const std::string& name : studies) {
     Options options;
     if (!name.empty()) options = options_of(name);
-    const auto methods = select_methods(default_methods(options.study));
+    const auto methods = select_methods(default_methods(options.run.study));
     EXPECT_GE(methods.size(), name == "error" || name == "stability" ? 7u : 1u) << name;
     std::set<std::string> names;
-    for (const Case& c : plan_cases(scenes({"default", "other"}), methods, options))
+    for (const Case& c : plan_cases(scenes({"default", "other"}), methods, options.run))
       EXPECT_TRUE(names.insert(c.name().text()).second) << c.name().text();
     EXPECT_FALSE(names.empty());
   }
@@ -168,7 +178,7 @@ TEST(Study, AFilesComplaintNamesKeyValueAndWhatIsAllowed) {
 
 TEST(Study, LoadStepsGoByTheScenes) {
   std::vector<std::size_t> steps;
-  for (const std::filesystem::path& file : scenes_of(options_of("load-steps").study))
+  for (const std::filesystem::path& file : scenes_of(options_of("load-steps").run.study))
     steps.push_back(1 + pose(read_scene(file), testing::small_tooth(4, 4)).later_steps.size());
   EXPECT_EQ(steps, (std::vector<std::size_t>{1, 2, 5, 10, 20, 50}));
 }
@@ -176,41 +186,44 @@ TEST(Study, LoadStepsGoByTheScenes) {
 // All solvers of the contact study find the same forces, and say who they are.
 TEST(Study, ContactSolversAgree) {
   const Options options = options_of("contact");
-  const auto cases = plan_cases(scenes(), select_methods(default_methods(options.study)), options);
+  const auto cases =
+      plan_cases(scenes(), select_methods(default_methods(options.run.study)), options.run);
   ASSERT_EQ(cases.size(), all_contact_solvers.size());
-  Workbench bench(mesh0(), options);
+  testing::CaseBench bench(mesh0(), options);
   for (const Case& c : cases) {
-    const Record record = bench.examine(c.method, {}).record;
+    const Record record = bench.examine(c, "").record;
     EXPECT_EQ(outcome_of(record), "ok") << c.name().text();
     EXPECT_LE(record.error_force, 1e-11) << c.name().text();
-    EXPECT_EQ(record.newton_steps.value_or(0) > 0, c.contact == ContactSolver::newton);
+    EXPECT_EQ(record.newton_steps.value_or(0) > 0, c.settings.contact == ContactSolver::newton);
   }
 }
 
 TEST(Study, OnlyWhatCondensesHasAContactSolver) {
   Options options;
-  options.contact = ContactSolver::admm;
-  const auto cases = plan_cases(scenes(), select_methods("3STEPD,ALM"), options);
-  EXPECT_EQ(cases[0].contact, ContactSolver::admm);
-  EXPECT_FALSE(cases[1].contact);
+  options.run.cases.contact = ContactSolver::admm;
+  const auto cases = plan_cases(scenes(), select_methods("3STEPD,ALM"), options.run);
+  EXPECT_EQ(cases[0].settings.contact, ContactSolver::admm);
+  EXPECT_FALSE(cases[1].settings.contact);
   options = {};
-  options.stop = Stop::paper;
-  EXPECT_EQ(plan_cases(scenes(), select_methods("3STEPD"), options)[0].contact,
+  options.run.cases.stop = Stop::paper;
+  EXPECT_EQ(plan_cases(scenes(), select_methods("3STEPD"), options.run)[0].settings.contact,
             ContactSolver::gauss_seidel);
 }
 
 TEST(Study, ScenesOfTheAtlasAreSorted) {
-  const auto files = scenes_of(options_of("stability").study);
+  const auto files = scenes_of(options_of("stability").run.study);
   EXPECT_GE(files.size(), 40u);
   EXPECT_TRUE(std::ranges::is_sorted(files));
 }
 
 TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
   Options options = options_of("error");
-  options.long_case_s = 1e-9;  // the detail run is the timed one, too
-  Workbench bench(mesh0(), options);
-  const TurnedMethod first = error_points(method("ALM:r=20,rho=20")).front();
-  const Record record = bench.examine(first.method, {}).record;
+  options.run.study.name = "mine";    // a copy of its file is the same study
+  options.limits.long_case_s = 1e-9;  // the detail run is the timed one, too
+  testing::CaseBench bench(mesh0(), options);
+  const Method alm = method("ALM:r=20,rho=20");
+  const StudyPoint first = error_points(alm, common_settings(options.run)).front();
+  const Record record = bench.examine(alm, first).record;
   EXPECT_EQ(record.status, Status::not_converged);
   EXPECT_TRUE(is_measured(record));
   EXPECT_EQ(record.samples_s.size(), 1u);
@@ -219,7 +232,7 @@ TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
   EXPECT_EQ(record.uzawa_iterations, first.knob.value);
 
   Record ordinary = record;  // elsewhere what has not converged is no measurement
-  ordinary.study.clear();
+  ordinary.points.clear();
   EXPECT_FALSE(is_measured(ordinary));
 }
 

@@ -1,11 +1,7 @@
 // `bench export`: every format is read back, from records made up for what could break it.
 #include <gtest/gtest.h>
 
-#include <boost/property_tree/ptree.hpp>
-#include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <set>
 #include <sstream>
 
 #include "bench/records/csv.hpp"
@@ -15,7 +11,6 @@
 #include "bench/records/record.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/records/robust.hpp"
-#include "bench/report/tracker_formats.hpp"
 #include "tests/support/bench_command.hpp"
 
 namespace airybench::export_test {
@@ -155,45 +150,6 @@ TEST(GoogleBenchmark, CasesWithoutSamplesAreErrors) {
 
 TEST(GoogleBenchmark, NoRecordsAreAnEmptyList) { EXPECT_TRUE(google({}).at("benchmarks").empty()); }
 
-TEST(GithubAction, EntriesHaveTheDocumentedFields) {
-  Json answered = awkward_record();
-  answered["status"] = "inaccurate";
-  const Json entries = Json::parse(
-      github_action_json(records_of({record("HYBRID", {1, 2, 4}), awkward_record(), answered})));
-  ASSERT_EQ(entries.size(), 4u + 3u);  // a timeout has none, the last no time
-  std::set<std::string> names;
-  for (const Json& entry : entries) {
-    names.insert(entry.at("name").get<std::string>());
-    EXPECT_TRUE(entry.at("unit").is_string());
-    EXPECT_TRUE(entry.at("value").is_number());
-    EXPECT_TRUE(entry.at("extra").is_string());
-    for (const auto& [key, value] : entry.items())
-      EXPECT_TRUE((std::set<std::string>{"name", "unit", "value", "range", "extra"}).contains(key));
-  }
-  EXPECT_EQ(names.size(), entries.size());
-  EXPECT_EQ(entries[0].at("name"), "Mesh0/default/HYBRID time");
-  EXPECT_EQ(entries[0].at("value"), 2000);
-  EXPECT_EQ(entries[0].at("range"), "1000 to 3000");
-  EXPECT_NE(entries[6].at("extra").get<std::string>().find(awkward), std::string::npos);
-}
-
-TEST(Bencher, MeasuresHaveAValueAndBounds) {
-  Json unmeasured = record("3STEPD", {});
-  for (const char* key : {"peak_heap_bytes", "error_stress", "error_force"})
-    unmeasured[key] = nullptr;
-  const Json all = Json::parse(bencher_json(records_of({record("HYBRID", {1, 2, 4}), unmeasured})));
-  ASSERT_EQ(all.size(), 1u);
-  const Json& measures = all.at("Mesh0/default/HYBRID");
-  EXPECT_EQ(measures.at("latency"),
-            Json({{"value", 2e9}, {"lower_value", 1e9}, {"upper_value", 3e9}}));
-  EXPECT_EQ(measures.at("peak-heap"), Json({{"value", 1048576.0}}));
-  EXPECT_EQ(measures.at("error-stress"), Json({{"value", 1e-12}}));
-  EXPECT_EQ(measures.at("error-force"), Json({{"value", 0.0}}));
-  EXPECT_EQ(bencher_json({}), "{}\n");
-  const Json once = Json::parse(bencher_json(records_of({record("HYBRID", {1})})));
-  EXPECT_EQ(once.at("Mesh0/default/HYBRID").at("latency"), Json({{"value", 1e9}}));
-}
-
 TEST(SeriesCsv, ARowPerNumber) {
   EXPECT_EQ(series_csv({}), "date,revision,mesh,scene,method,stop,quantity,value\n");
   const std::string text = series_csv(records_of({awkward_record()}));
@@ -225,35 +181,6 @@ TEST(Csv, TextsAreNoFormulas) {
   }
 }
 
-TEST(Junit, StatusesBecomeOutcomes) {
-  std::vector<Json> records = {record("HYBRID", {1, 2, 4}), awkward_record()};
-  for (const char* status :
-       {"inaccurate", "not_converged", "breakdown", "out_of_memory", "crashed", "skipped"}) {
-    records.push_back(record(status, {}));
-    records.back()["status"] = status;
-  }
-  const TemporaryFolder folder;
-  const fs::path file = write_text(folder / "junit.xml", junit_xml(records_of(records)));
-  boost::property_tree::ptree document;
-  read_xml(file.string(), document);
-  const auto& suites = document.get_child("testsuites");
-  ASSERT_EQ(suites.count("testsuite"), 2u);
-  const auto& suite = suites.front().second;
-  EXPECT_EQ(suite.get<std::string>("<xmlattr>.name"), "Mesh0/default");
-  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.tests")), 7);
-  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.failures")), 3);
-  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.errors")), 2);
-  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.skipped")), 1);
-  EXPECT_EQ(std::stod(suite.get<std::string>("testcase.<xmlattr>.time")), 2);
-  const auto& timeout = suites.back().second;
-  EXPECT_EQ(timeout.get<std::string>("testcase.error.<xmlattr>.type"), "timeout");
-  EXPECT_EQ(timeout.get<std::string>("testcase.error.<xmlattr>.message"),
-            "a \"b\" <c> & 'd', e\n\uFFFD\tf\\ é");
-  const std::string strict =
-      "python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' '";
-  EXPECT_EQ(std::system((strict + file.string() + "'").c_str()), 0);
-}
-
 class ExportCommand : public ::testing::Test {
  protected:
   int run(const std::string& arguments) {
@@ -266,8 +193,7 @@ class ExportCommand : public ::testing::Test {
 
 TEST_F(ExportCommand, WritesEveryFormat) {
   write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n");
-  for (const char* format :
-       {"google-benchmark", "github-action", "bencher", "csv", "junit", "markdown", "latex"}) {
+  for (const char* format : {"google-benchmark", "csv", "markdown", "latex"}) {
     EXPECT_EQ(run(std::string(". --format=") + format), 0) << result_.err;
     const std::string printed = result_.out;
     EXPECT_NE(printed.find("Mesh0"), std::string::npos) << format;
@@ -350,7 +276,7 @@ TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
               "--columns: not with --format=csv (markdown and latex have them)");
   expect_line(". --format=latex --method='P*'", "--method: no case has 'P*' (there are: HYBRID)");
   EXPECT_EQ(run(". --format=xml"), 2);
-  EXPECT_NE(result_.err.find("junit"), std::string::npos) << result_.err;
+  EXPECT_NE(result_.err.find("latex"), std::string::npos) << result_.err;
   write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n{\n");
   expect_line(
       ". --format=csv",
@@ -359,7 +285,7 @@ TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
   Json wrong = record("HYBRID", {1});
   wrong["status"] = 1;
   write_text(bench_.path("records.jsonl"), wrong.dump() + "\n");
-  expect_line(". --format=junit", "./records.jsonl:1: status: 1 " + allowed_statuses);
+  expect_line(". --format=markdown", "./records.jsonl:1: status: 1 " + allowed_statuses);
   fs::create_directory(bench_.path("nights"));
   expect_line(". --format=csv",
               "./nights: no *.json in it (a folder that bench track wrote has them)");

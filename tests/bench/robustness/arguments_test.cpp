@@ -153,7 +153,7 @@ TEST(Usage, ALackOfMemoryIsNotWrongUsage) {
   std::string values = "{}";  // of 3 bytes, which become 64
   for (int k = 0; k < 5'000'000; ++k) values += ",{}";
   testing::write_text(bench.path("big/records.jsonl"), R"({"values":[)" + values + "]}\n");
-  const CommandResult result = bench.run("export big --format=junit", "ulimit -v 400000; ");
+  const CommandResult result = bench.run("export big --format=csv", "ulimit -v 400000; ");
   EXPECT_EQ(result.code, 3);
   EXPECT_EQ(result.err, "bench: out of memory\n");
 }

@@ -58,7 +58,7 @@ TEST(FullStreams, AreTold) {
   ASSERT_EQ(bench.run(two).code, 0);
   for (const char* arguments :
        {"--list", "--help", "--version", "compare o o", "claims o", "export o --format=csv",
-        "export o --format=junit", "merge o --out=m", "track --history=h --from=o",
+        "export o --format=latex", "merge o --out=m", "track --history=h --from=o",
         "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=p",
         "--mesh=Mesh0 --method=HYBRID --dry-run", "--mesh=Mesh0 --method=HYBRID --explain",
         "replay o:1 --out=r"}) {

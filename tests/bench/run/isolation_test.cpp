@@ -69,13 +69,15 @@ class Isolation : public ::testing::Test {
     return run_between(std::vector<Method>{method}).front();
   }
   std::vector<Record> run(const std::vector<Method>& methods) {
-    return run_cases(plan_cases({posed_}, methods), options_, {}).records();
+    return run_cases(plan_cases({posed_}, methods, options_.run), options_.limits, options_.output,
+                     {})
+        .records();
   }
 
   Isolation() {
-    options_.out = folder_ / "o";
-    options_.repetitions = 2;
-    options_.target_error = 1e-6;
+    options_.output.folder = folder_ / "o";
+    options_.limits.repetitions = 2;
+    options_.run.cases.target_error = 1e-6;
     posed_.scene_name = "default";
     posed_.problem = testing::posed(Scene{}, testing::small_tooth(4, 3));
   }
@@ -134,13 +136,13 @@ TEST_F(Isolation, ACrashInATimedRunTakesTheTimesAway) {
 }
 
 TEST_F(Isolation, AHangIsEnded) {
-  options_.timeout_s = 2;  // which the sound ones do not reach, however slow the machine
+  options_.limits.timeout_s = 2;  // which the sound ones do not reach, however slow the machine
   const Record record = run_between(harmful("HANGS", [](Solution&) {
     for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
   }));
   EXPECT_EQ(record.status, Status::timeout);
   EXPECT_EQ(record.ended_in, "detail run, factor");
-  EXPECT_GT(record.time_so_far_s.value_or(0), options_.timeout_s);
+  EXPECT_GT(record.time_so_far_s.value_or(0), options_.limits.timeout_s);
 }
 
 TEST_F(Isolation, NonsenseIsNoSuccess) {
@@ -201,7 +203,7 @@ TEST_F(Isolation, ATimeWithASuspensionInItIsNoSample) {
 
 TEST_F(Isolation, MemoryWithoutEndIsEnded) {
   if (!heap::is_active()) return;  // sanitizers count for themselves
-  options_.memory_limit_bytes = 64 << 20;
+  options_.limits.memory_limit_bytes = 64 << 20;
   // Blocks that the limit refuses, and blocks so small that it grants them.
   for (const std::size_t bytes : {std::size_t{1} << 20, std::size_t{1} << 10}) {
     const Record record = run_between(harmful("EATS", [bytes](Solution&) {
@@ -225,12 +227,14 @@ class IsolationAtSize : public Isolation {
     mesh.name = "large";
     large_.scene_name = "default";
     large_.problem = testing::posed(Scene{}, std::move(mesh));
-    options_.repetitions = 1;
+    options_.limits.repetitions = 1;
   }
   // Of the large body; the small one is solved after it.
   Record run_large(const Method& method) {
     const std::vector<Record> records =
-        run_cases(plan_cases({large_, posed_}, {method}), options_, {}).records();
+        run_cases(plan_cases({large_, posed_}, {method}, options_.run), options_.limits,
+                  options_.output, {})
+            .records();
     EXPECT_EQ(records.size(), 2u);
     EXPECT_EQ(records.back().status, Status::ok) << records.back().status_reason;
     EXPECT_GT(records.front().n_phi, testing::sanitized ? 12'000 : 50'000);
@@ -246,7 +250,7 @@ class IsolationAtSize : public Isolation {
 TEST_F(IsolationAtSize, AMemoryLimitIsARecord) {
   if (!heap::is_active()) return;
   for (const int MiB : {16, 48}) {
-    options_.memory_limit_bytes = std::int64_t{MiB} << 20;
+    options_.limits.memory_limit_bytes = std::int64_t{MiB} << 20;
     const Record record = run_large(method_);
     EXPECT_EQ(record.status, Status::out_of_memory) << MiB;
     EXPECT_NE(record.status_reason.find("limit"), std::string::npos) << record.status_reason;
@@ -256,7 +260,7 @@ TEST_F(IsolationAtSize, AMemoryLimitIsARecord) {
 // However fast the machine, the large body takes as long as it may; however slow, the small one
 // does not.
 TEST_F(IsolationAtSize, ATimeLimitIsARecord) {
-  options_.timeout_s = 3;
+  options_.limits.timeout_s = 3;
   Method patient = method_;
   patient.solve = [this](const DualSystem& system, const RunControl& control) {
     Solution solution = method_.solve(system, control);
@@ -313,14 +317,14 @@ TEST_F(IsolationAtSize, AKillWithinAStageIsARecord) {
 // OpenBLAS's threads do: "malloc failed in gemm_driver".
 TEST_F(Isolation, ALibraryThatExitsForLackOfMemoryIsOutOfMemory) {
   if (!heap::is_active()) return;
-  options_.memory_limit_bytes = 64 << 20;
+  options_.limits.memory_limit_bytes = 64 << 20;
   const Method gives_up = harmful("GIVES UP", [](Solution&) {
     void* const block = std::malloc(std::size_t{1} << 27);
     if (block == nullptr) std::exit(1);
     std::free(block);
   });
   EXPECT_EQ(run_between(gives_up).status, Status::out_of_memory);
-  options_.memory_limit_bytes.reset();
+  options_.limits.memory_limit_bytes.reset();
   const Method gets_none = harmful("GETS NONE", [](Solution&) { exit_without_memory(); });
   const Record record = run_between(gets_none);
   EXPECT_EQ(record.status, Status::out_of_memory);
@@ -398,10 +402,10 @@ TEST_F(Isolation, AKillFromOutsideLeavesNothingOut) {
 }
 
 TEST_F(Isolation, RepetitionsAreInterleavedAndAllKept) {
-  options_.interleave = true;
-  options_.repetitions = 5;
+  options_.limits.interleave = true;
+  options_.limits.repetitions = 5;
   const std::vector<Record> records = run(select_methods("3STEPD,HYBRID,P2"));
-  options_.interleave = false;
+  options_.limits.interleave = false;
   ASSERT_EQ(records.size(), 3u);
   for (const Record& record : records) {
     EXPECT_EQ(record.status, Status::ok);

@@ -179,13 +179,14 @@ TEST(NoiseWatch, SaysHowManyPassedBeforeItWasQuiet) {
 class RetryNoisy : public ::testing::Test {
  protected:
   std::vector<Record> run(const char* names = "HYBRID,P2") {
-    return run_cases(plan_cases({posed_}, select_methods(names)), options_, {}, made_up_.machine())
+    return run_cases(plan_cases({posed_}, select_methods(names), options_.run), options_.limits,
+                     options_.output, {}, made_up_.machine())
         .records();
   }
   RetryNoisy() {
-    options_.out = folder_ / "o";
-    options_.repetitions = 2;
-    options_.retry_noisy = 0.05;
+    options_.output.folder = folder_ / "o";
+    options_.limits.repetitions = 2;
+    options_.limits.retry_noisy = 0.05;
     posed_.scene_name = "default";
     posed_.problem = testing::posed(Scene{}, testing::small_tooth(4, 3));
     made_up_.then(24, 1);  // before the first case
@@ -226,7 +227,7 @@ TEST_F(RetryNoisy, MeasuresAgainUntilItIsQuiet) {
 TEST_F(RetryNoisy, EndsOnAMachineThatIsNeverQuiet) {
   made_up_.pace_s = 1.5;
   for (const bool interleave : {false, true}) {
-    options_.interleave = interleave;
+    options_.limits.interleave = interleave;
     made_up_.passes = 0;
     for (const Record& r : run()) {
       EXPECT_EQ(r.noise_attempts, 4);
@@ -239,8 +240,8 @@ TEST_F(RetryNoisy, EndsOnAMachineThatIsNeverQuiet) {
 }
 
 TEST_F(RetryNoisy, GivesEachAttemptItsOwnPrecision) {
-  options_.precision = 0.99;
-  options_.max_repetitions = 20;
+  options_.limits.precision = 0.99;
+  options_.limits.max_repetitions = 20;
   made_up_.then(6, 2);
   const Record r = run("HYBRID").front();
   EXPECT_EQ(r.noise_attempts, 2);
@@ -249,7 +250,7 @@ TEST_F(RetryNoisy, GivesEachAttemptItsOwnPrecision) {
 }
 
 TEST_F(RetryNoisy, TimesALongCaseOnceMore) {
-  options_.long_case_s = 1e-9;
+  options_.limits.long_case_s = 1e-9;
   made_up_.then(6, 2);
   const Record r = run("HYBRID").front();
   EXPECT_TRUE(r.measured_once);
@@ -269,8 +270,9 @@ TEST_F(RetryNoisy, RecordsAFailureInALaterAttempt) {
     return solve(system, control);
   };
   made_up_.then(6, 2);
-  const auto records =
-      run_cases(plan_cases({posed_}, {method}), options_, {}, made_up_.machine()).records();
+  const auto records = run_cases(plan_cases({posed_}, {method}, options_.run), options_.limits,
+                                 options_.output, {}, made_up_.machine())
+                           .records();
   EXPECT_EQ(records.front().status, Status::crashed);
   EXPECT_EQ(records.front().status_reason, "in a timed run: no such luck");
   EXPECT_TRUE(records.front().samples_s.empty());

@@ -16,45 +16,45 @@ Record timed(std::vector<double> samples_s) {
   return record;
 }
 
-Options precise(double share) {
-  Options options;
-  options.precision = share;
-  return options;
+Limits precise(double share) {
+  Limits limits;
+  limits.precision = share;
+  return limits;
 }
 
 TEST(Repetitions, AreThoseAskedForWithoutPrecision) {
-  const Options options;
-  EXPECT_EQ(most_repetitions(options), 5);
-  EXPECT_TRUE(is_repeated(timed({}), options));
-  EXPECT_TRUE(is_repeated(timed({1, 1, 1, 1}), options));
-  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1}), options));
+  const Limits limits;
+  EXPECT_EQ(most_repetitions(limits), 5);
+  EXPECT_TRUE(is_repeated(timed({}), limits));
+  EXPECT_TRUE(is_repeated(timed({1, 1, 1, 1}), limits));
+  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1}), limits));
 }
 
 TEST(Repetitions, GoOnUntilTheMedianIsPreciseEnough) {
-  const Options options = precise(0.02);
-  EXPECT_EQ(least_repetitions(options), 6);
-  EXPECT_TRUE(is_repeated(timed({1, 1, 1, 1, 1}), options));      // no interval
-  EXPECT_FALSE(is_repeated(timed({1, 1, 1, 1, 1, 1}), options));  // ± 0
+  const Limits limits = precise(0.02);
+  EXPECT_EQ(least_repetitions(limits), 6);
+  EXPECT_TRUE(is_repeated(timed({1, 1, 1, 1, 1}), limits));      // no interval
+  EXPECT_FALSE(is_repeated(timed({1, 1, 1, 1, 1, 1}), limits));  // ± 0
   EXPECT_FALSE(is_repeated(timed({0.98, 1, 1, 1, 1, 1.02}), precise(0.0201)));
-  EXPECT_TRUE(is_repeated(timed({0.98, 1, 1, 1, 1, 1.03}), options));
+  EXPECT_TRUE(is_repeated(timed({0.98, 1, 1, 1, 1, 1.03}), limits));
   // From nine samples on the outermost are outside.
-  EXPECT_FALSE(is_repeated(timed({0.5, 1, 1, 1, 1, 1, 1, 1, 9}), options));
+  EXPECT_FALSE(is_repeated(timed({0.5, 1, 1, 1, 1, 1, 1, 1, 9}), limits));
 }
 
 TEST(Repetitions, HaveALeastNumberAndAnEndOnANoisyMachine) {
-  Options options = precise(0.02);
-  options.repetitions = 8;
-  EXPECT_TRUE(is_repeated(timed(std::vector<double>(7, 1.0)), options));
-  EXPECT_FALSE(is_repeated(timed(std::vector<double>(8, 1.0)), options));
-  options.max_repetitions = 10;
-  EXPECT_EQ(most_repetitions(options), 10);
-  EXPECT_TRUE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1, 2, 1}), options));
-  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1, 2, 1, 2}), options));
-  options.long_case_s = 10;
-  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1}), options));
+  Limits limits = precise(0.02);
+  limits.repetitions = 8;
+  EXPECT_TRUE(is_repeated(timed(std::vector<double>(7, 1.0)), limits));
+  EXPECT_FALSE(is_repeated(timed(std::vector<double>(8, 1.0)), limits));
+  limits.max_repetitions = 10;
+  EXPECT_EQ(most_repetitions(limits), 10);
+  EXPECT_TRUE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1, 2, 1}), limits));
+  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1, 2, 1, 2}), limits));
+  limits.long_case_s = 10;
+  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1}), limits));
   Record once = timed({1});
   once.measured_once = true;
-  EXPECT_FALSE(is_repeated(once, options));
+  EXPECT_FALSE(is_repeated(once, limits));
 }
 
 TEST(Precision, IsJudgedInTheRecord) {

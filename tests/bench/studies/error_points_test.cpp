@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "assembly/scene.hpp"
-#include "bench/measure/workbench.hpp"
 #include "bench/plan/study.hpp"
 #include "bench/records/summary.hpp"
 #include "mesh/msh_format.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
@@ -67,17 +67,18 @@ class ErrorPoints : public ::testing::TestWithParam<std::string> {};
 TEST_P(ErrorPoints, AreNoWorseThanCommitted) {
   const std::string mesh = GetParam();
   Options options;
-  options.study = *study_named("error");
-  options.repetitions = 1;
-  Workbench bench(testing::posed(Scene(), testing::catalogue_mesh(mesh)), options);
+  options.run.study = *study_named("error");
+  options.limits.repetitions = 1;
+  testing::CaseBench bench(testing::posed(Scene(), testing::catalogue_mesh(mesh)), options);
   const Update update = testing::update();
   if (update == Update::anew) table().forget(mesh);
   for (const Method& method : select_methods("SDTIC6,3STEPCG6,ALM:r=20,rho=20,3STEPD,HYBRID,P2"))
-    for (const TurnedMethod& point : error_points(method)) {
-      const std::string knob = point.knob.stop ? "paper's stop" : point.knob.name;
+    for (const StudyPoint& point : error_points(method, common_settings(options.run))) {
+      const std::string knob =
+          point.settings.stop == Stop::paper ? "paper's stop" : point.knob.name;
       const ExpectedTable::Row key = {mesh, method.name, knob, text(point.knob.value)};
       SCOPED_TRACE(fmt::format("{}, {}, {} {}", mesh, method.name, knob, text(point.knob.value)));
-      const ExpectedTable::Row found = values_of(bench.examine(point.method, {}).record);
+      const ExpectedTable::Row found = values_of(bench.examine(method, point).record);
       const ExpectedTable::Row* expected = table().find(key);
       if (update != Update::no)
         table().note(

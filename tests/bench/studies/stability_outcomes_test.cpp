@@ -8,11 +8,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "bench/measure/workbench.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/plan/study.hpp"
 #include "bench/records/summary.hpp"
 #include "mesh/msh_format.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
@@ -144,12 +144,12 @@ TEST_P(StabilityOutcomes, AreNoWorseThanCommitted) {
   const Scene scene = read_scene(testing::stability_scenes_folder() / (scene_name + ".json"));
   const auto problem = testing::posed(scene, testing::catalogue_mesh("Mesh0"));
   Options options;
-  options.study = *study_named("stability");
-  options.repetitions = 1;
+  options.run.study = *study_named("stability");
+  options.limits.repetitions = 1;
   // No outcome shall depend on time: while testing only a hang meets the limit.
   const Update update = testing::update();
-  options.timeout_s = update == Update::anew ? 2 * longest_s : 300;
-  Workbench bench(problem, options);
+  options.limits.timeout_s = update == Update::anew ? 2 * longest_s : 300;
+  testing::CaseBench bench(problem, options);
   if (update == Update::anew) table().forget(scene_name);
   for (const Method& method : one_of_each_kind()) {
     const ExpectedTable::Row* expected = table().find({scene_name, method.name});
@@ -159,7 +159,7 @@ TEST_P(StabilityOutcomes, AreNoWorseThanCommitted) {
     }
     if (update != Update::anew && expected && expected->front() == "left out") continue;
     const auto start = std::chrono::steady_clock::now();
-    const Record record = bench.examine(method, {}).record;
+    const Record record = bench.examine(method, "").record;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (update == Update::no) {
       compare(scene_name + "/" + method.name, Expected(*expected), record);

@@ -1,9 +1,9 @@
 // Scenes on which a record once claimed what was not so.
 #include <gtest/gtest.h>
 
-#include "bench/measure/workbench.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/summary.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/random_scenes.hpp"
@@ -23,17 +23,17 @@ std::shared_ptr<const Problem> posed(const Changes& changes, const std::string& 
 
 Options options_for(const char* study) {
   Options options;
-  options.study = *study_named(study);
-  options.repetitions = 1;
+  options.run.study = *study_named(study);
+  options.limits.repetitions = 1;
   return options;
 }
 
 Record examined(const std::shared_ptr<const Problem>& problem, const Method& method,
                 const char* study = "stability", Stop stop = Stop::target) {
   Options options = options_for(study);
-  options.stop = stop;
-  Workbench bench(problem, options);
-  Record record = bench.examine(method, {}).record;
+  options.run.cases.stop = stop;
+  testing::CaseBench bench(problem, options);
+  Record record = bench.examine(method, "").record;
   record.outcome = outcome_of(record);
   return record;
 }

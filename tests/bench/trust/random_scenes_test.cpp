@@ -8,8 +8,8 @@
 
 #include <iostream>
 
-#include "bench/measure/workbench.hpp"
 #include "bench/records/summary.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/random_scenes.hpp"
@@ -92,13 +92,14 @@ TEST(RandomScenes, NoMethodIsWrongAndSaysOk) {
       continue;
     }
     Options options;
-    options.study = *study_named("stability");
-    options.repetitions = 1;
-    options.timeout_s = wanted.is_asked_for ? 20 : 1;  // a timeout is no claim, and no failure
-    Workbench bench(problem, options);
+    options.run.study = *study_named("stability");
+    options.limits.repetitions = 1;
+    options.limits.timeout_s =
+        wanted.is_asked_for ? 20 : 1;  // a timeout is no claim, and no failure
+    testing::CaseBench bench(problem, options);
     for (const Method& method : methods(k))
       hold(fmt::format("{} ({}), {}", k, scene.about, method.name),
-           bench.examine(method, {}).record, tally);
+           bench.examine(method, "").record, tally);
   }
   std::cout << fmt::format("tried {}, scenes that cannot be posed {}", tally.tried,
                            tally.not_posed);

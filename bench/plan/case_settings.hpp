@@ -1,0 +1,36 @@
+// What is asked of a case, besides its problem and its method: plain data. Workbench makes what the
+// method is told from it (Workbench::control_of()).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "support/status.hpp"
+
+namespace airybench {
+
+struct CaseSettings {
+  Stop stop = Stop::target;
+  double target_error = 1e-6;
+  int threads = 1;  // of BLAS, and for right-hand sides
+  // The tolerance of an iterative method is tightened until its own estimate is below the target.
+  bool tightened = true;
+  // Of the method's iteration; empty: the method's own, or found by tightening.
+  std::optional<double> tolerance;
+  std::optional<int> max_iterations;
+  // Of the condensed contact problem. In a planned case no solver: there is no such problem.
+  std::optional<ContactSolver> contact;
+  std::optional<double> contact_tolerance;
+  std::optional<int> max_contact_iterations;
+  bool timed_once = false;
+  bool histories = false;    // keep iteration histories
+  bool condition = false;    // estimate the condition number of the factorised matrix
+  bool intervals = false;    // bound the contact forces (with stresses of degree > 1 always)
+  bool fields = false;       // write stresses, displacements, contact points …
+  bool mean_fields = false;  // … and their mean with the stresses of displacements
+  // The total error of degree 1 comes from the displacements of P2; false: from recovered ones.
+  bool error_of_displacements = false;
+  std::string stresses_by = "HYBRID";  // the method whose stresses recovery starts from
+};
+
+}  // namespace airybench
