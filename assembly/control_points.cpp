@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "assembly/free_bodies.hpp"
 
 namespace airybench {

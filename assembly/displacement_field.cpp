@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "assembly/edge_forces.hpp"
-#include "assembly/small_cholesky.hpp"
+#include "assembly/elements/edge_forces.hpp"
+#include "assembly/elements/small_cholesky.hpp"
 
 namespace airybench {
 namespace {

@@ -15,7 +15,7 @@
 #include <functional>
 #include <map>
 
-#include "assembly/displacement_triangle.hpp"
+#include "assembly/elements/displacement_triangle.hpp"
 #include "assembly/stress_field.hpp"
 
 namespace airybench {
@@ -45,12 +45,6 @@ EdgeFrame frame_of_coefficient(const Problem& problem, int row, int i) {
 // The coefficients of a triangle.
 DisplacementTriangle::Displacement of_triangle(const Problem& problem, int degree,
                                                const DisplacementField& u, int triangle);
-
-// Bernstein coefficients of the quadratic through three samples along an edge.
-template <typename Value>
-std::array<Value, 3> edge_coefficients(const Value& start, const Value& middle, const Value& end) {
-  return {start, Value(2 * middle - (start + end) / 2), end};
-}
 
 Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);   // its inverse
 std::vector<Eigen::Matrix3d> elasticities(const Problem& problem);  // per row of mesh.body_names

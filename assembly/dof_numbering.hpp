@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-#include "assembly/problem.hpp"
+#include "assembly/problem/problem.hpp"
 
 namespace airybench {
 

@@ -1,7 +1,7 @@
 #include "assembly/dual_system.hpp"
 
 #include "assembly/displacement_field.hpp"
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "assembly/flexibility.hpp"
 #include "assembly/free_bodies.hpp"
 #include "assembly/row_order.hpp"

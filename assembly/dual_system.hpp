@@ -24,7 +24,7 @@
 
 #include "assembly/contact_problem.hpp"
 #include "assembly/dof_numbering.hpp"
-#include "assembly/problem.hpp"
+#include "assembly/problem/problem.hpp"
 #include "support/wide.hpp"
 
 namespace airybench {

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "assembly/contact_problem.hpp"
-#include "assembly/problem.hpp"
+#include "assembly/problem/problem.hpp"
 
 namespace airybench {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "assembly/hct_templates.hpp"
+#include "assembly/elements/hct_templates.hpp"
 #include "assembly/stress_field.hpp"
 
 namespace airybench {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "assembly/displacement_field.hpp"
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 
 namespace airybench {
 namespace {

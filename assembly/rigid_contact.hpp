@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/problem.hpp"
+#include "assembly/problem/problem.hpp"
 
 namespace airybench {
 

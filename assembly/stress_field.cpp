@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "assembly/edge_forces.hpp"
-#include "assembly/stress_degrees.hpp"
+#include "assembly/elements/edge_forces.hpp"
+#include "assembly/elements/stress_degrees.hpp"
 #include "support/wide.hpp"
 
 namespace airybench {

@@ -6,8 +6,8 @@
 // over the scalar are instantiated for double and Wide.
 #pragma once
 
-#include "assembly/bernstein.hpp"
-#include "assembly/problem.hpp"
+#include "assembly/elements/bernstein.hpp"
+#include "assembly/problem/problem.hpp"
 
 namespace airybench {
 

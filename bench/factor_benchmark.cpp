@@ -16,7 +16,7 @@
 #include <memory>
 
 #include "assembly/dual_system.hpp"
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/base/blas_library.hpp"

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "assembly/equilibrium_element.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
 #include "solvers/names/general_names.hpp"
 #include "support/shortened.hpp"
 

@@ -178,8 +178,7 @@ std::vector<Case> plan_of(const Options& options, Adapted& adapted) {
     scenes = levels_of(scenes, options, adapted.short_of);
   }
   std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.run);
-  if (!options.run.filter.empty())
-    plan = matching(std::move(plan), options.run.filter, options.limits.interleave);
+  if (!options.run.filter.empty()) plan = matching(std::move(plan), options.run.filter);
   if (plan.empty() && adapted.short_of.empty())
     throw UsageError("no case is left: the arguments after -- select none");
   return plan;

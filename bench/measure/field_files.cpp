@@ -6,7 +6,7 @@
 #include <map>
 
 #include "assembly/control_points.hpp"
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "bench/measure/vtu.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/contact/coulomb_law.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <new>
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 
 namespace airybench {
 

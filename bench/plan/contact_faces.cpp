@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "assembly/wall.hpp"
+#include "assembly/problem/wall.hpp"
 
 namespace airybench {
 namespace {

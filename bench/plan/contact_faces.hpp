@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/records/json.hpp"
 #include "mesh/mesh.hpp"
 

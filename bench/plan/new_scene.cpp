@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/plan/contact_faces.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/records/json.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "assembly/contact_problem.hpp"
-#include "assembly/problem.hpp"
+#include "assembly/problem/problem.hpp"
 #include "bench/plan/options.hpp"
 #include "bench/records/record.hpp"
 #include "solvers/base/method.hpp"

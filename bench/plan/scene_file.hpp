@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 
 namespace airybench {
 

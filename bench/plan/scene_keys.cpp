@@ -1,6 +1,6 @@
 // Tables of a scene file's keys: the key's name, the member that it sets, its range.
-// check_values() (assembly/scene.hpp) checks the ranges that hold for any scene.
-#include "assembly/scene.hpp"
+// check_values() (assembly/problem/scene.hpp) checks the ranges that hold for any scene.
+#include "assembly/problem/scene.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/json_value.hpp"
 #include "mesh/mesh.hpp"

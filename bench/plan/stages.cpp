@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "assembly/contact_conditions.hpp"
+#include "assembly/problem/face_matching.hpp"
 
 namespace airybench {
 

@@ -19,7 +19,7 @@ struct StageDecision {
 // not in n_c; a roller edge adds two rows to n_f. Without a body n_c only.
 MeshSizes solved_sizes(const PosedProblem& problem);
 
-// Counts contact edges out of reach of their wall (assembly/contact_conditions.hpp).
+// Counts contact edges out of reach of their wall (assembly/problem/contact_conditions.hpp).
 int edges_out_of_reach(const Problem& problem);
 
 // Why a method cannot solve a problem, and which methods can. Empty if it can.

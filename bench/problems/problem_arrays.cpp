@@ -6,7 +6,7 @@
 #include <array>
 #include <iterator>
 
-#include "assembly/bernstein.hpp"
+#include "assembly/elements/bernstein.hpp"
 #include "assembly/row_order.hpp"
 
 namespace airybench {

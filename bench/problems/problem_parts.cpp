@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "assembly/contact_conditions.hpp"
+#include "assembly/problem/boundary_values.hpp"
 #include "solvers/base/solution.hpp"
 #include "solvers/condensation/global_problem.hpp"
 #include "solvers/contact/compliance.hpp"

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <set>
 
+#include "assembly/problem/pose.hpp"
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/plan/mesh_files.hpp"

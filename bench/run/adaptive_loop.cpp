@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "assembly/matched_faces.hpp"
+#include "assembly/problem/matched_faces.hpp"
+#include "assembly/problem/pose.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/measure/load_step_runs.hpp"
 #include "bench/verify/discretisation_error.hpp"

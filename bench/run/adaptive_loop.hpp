@@ -18,7 +18,7 @@
 
 #include <functional>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/plan/options.hpp"
 #include "bench/verify/expected_parts.hpp"
 #include "bench/verify/total_error.hpp"

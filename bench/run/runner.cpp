@@ -2,15 +2,16 @@
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <regex.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <functional>
 #include <iostream>
 #include <iterator>
 #include <map>
 #include <numeric>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -38,7 +39,8 @@ constexpr bool takes_unit = requires(State& state) {
   state.skipped();
 };
 
-// Sets every option that environment variables (BENCHMARK_FILTER and so on) could change.
+// Sets every option that environment variables (BENCHMARK_FILTER and so on) could change: the
+// library has read them before main().
 void initialize_benchmark(bool interleave) {
   static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
   std::vector<std::string> wanted = {
@@ -83,15 +85,12 @@ class Listener : public benchmark::BenchmarkReporter {
   Ended ended_;
 };
 
-std::string run_benchmarks(const std::string& filter, Listener::Ended ended) {
+void run_benchmarks(Listener::Ended ended) {
   struct Forgets {
     ~Forgets() { benchmark::ClearRegisteredBenchmarks(); }
   } forgets;
   Listener listener(std::move(ended));
-  benchmark::RunSpecifiedBenchmarks(&listener, filter);
-  std::string line;
-  std::getline(listener.complaints, line);
-  return line;
+  benchmark::RunSpecifiedBenchmarks(&listener, "all");
 }
 
 class SceneRunner {
@@ -118,7 +117,7 @@ class SceneRunner {
           ->Iterations(1)
           ->Repetitions(most_repetitions(limits_))
           ->Unit(benchmark::kMillisecond);
-    run_benchmarks("all", [this](const std::string& name) { finish(index_of(name)); });
+    run_benchmarks([this](const std::string& name) { finish(index_of(name)); });
     if (limits_.interleave) write_finished();
   }
 
@@ -140,6 +139,7 @@ class SceneRunner {
     const Record& record = *cases_[k].record;
     for (auto _ : state) {
       if (!is_measured(record)) {
+        // Nothing else ends a benchmark's repetitions.
         state.SkipWithError(
             fmt::format("{}: {}", name_of(record.status), record.status_reason).c_str());
         break;
@@ -283,19 +283,23 @@ bool is_repeated(const Record& record, const Limits& limits) {
   return *median_uncertainty(samples) > *limits.precision;
 }
 
-std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave) {
-  initialize_benchmark(interleave);
-  for (const Case& c : plan)  // settings would enter the name; min_time=0 gives one iteration
-    benchmark::RegisterBenchmark(c.name().text().c_str(), [](benchmark::State& state) {
-      for (auto _ : state) continue;
-    });
-  std::set<std::string> selected;
-  const std::string complaint =
-      run_benchmarks(filter, [&](const std::string& name) { selected.insert(name); });
-  if (!complaint.empty() && !complaint.starts_with("Failed to match"))
+std::vector<Case> matching(std::vector<Case> plan, const std::string& filter) {
+  if (filter == "all") return plan;
+  const bool is_inverted = filter.starts_with('-');
+  regex_t expression;
+  const char* const text = filter.c_str() + (is_inverted ? 1 : 0);
+  if (const int error = regcomp(&expression, text, REG_EXTENDED | REG_NOSUB); error != 0) {
+    std::array<char, 200> why{};
+    regerror(error, &expression, why.data(), why.size());
     throw UsageError(
-        fmt::format("-- --benchmark_filter={}: {}", shortened(filter), shortened(complaint, 200)));
-  std::erase_if(plan, [&](const Case& c) { return !selected.contains(c.name().text()); });
+        fmt::format("-- --benchmark_filter={}: {} (allowed: extended regular expressions)",
+                    shortened(filter), why.data()));
+  }
+  std::erase_if(plan, [&](const Case& c) {
+    const bool is_met = regexec(&expression, c.name().text().c_str(), 0, nullptr, 0) == 0;
+    return is_met == is_inverted;
+  });
+  regfree(&expression);
   return plan;
 }
 

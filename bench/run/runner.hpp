@@ -46,9 +46,9 @@ struct RunResult {
 RunResult run_cases(const std::vector<Case>& plan, const Limits& limits, const Output& output,
                     const Context& context, const Machine& machine = this_machine());
 
-// The cases whose names match Google Benchmark's filter, an unanchored regular expression; a
-// leading '-' inverts it. Throws UsageError if the expression is invalid.
-std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave);
+// The cases whose names match, as Google Benchmark's filter does: an unanchored extended regular
+// expression; a leading '-' inverts it. Throws UsageError if the expression is invalid.
+std::vector<Case> matching(std::vector<Case> plan, const std::string& filter);
 
 int least_repetitions(const Limits& limits);
 int most_repetitions(const Limits& limits);

@@ -4,8 +4,8 @@
 #include <array>
 #include <limits>
 
-#include "assembly/bernstein.hpp"
 #include "assembly/displacement_field.hpp"
+#include "assembly/elements/bernstein.hpp"
 
 namespace airybench {
 

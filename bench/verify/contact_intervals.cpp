@@ -5,8 +5,8 @@
 #include <functional>
 #include <limits>
 
-#include "assembly/bernstein.hpp"
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/bernstein.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "bench/verify/along_contact.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 #include "bench/verify/along_contact.hpp"
 
 namespace airybench {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "assembly/rough_compliance.hpp"
 #include "bench/verify/along_contact.hpp"
 #include "bench/verify/verifier.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 
 namespace airybench {
 namespace {

@@ -12,7 +12,7 @@
 // ĉ_m of the compliance there.
 #pragma once
 
-#include "assembly/displacement_triangle.hpp"
+#include "assembly/elements/displacement_triangle.hpp"
 
 namespace airybench {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 #include "solvers/base/dense_products.hpp"
 #include "solvers/condensation/refinement.hpp"
 #include "solvers/contact/active_set.hpp"

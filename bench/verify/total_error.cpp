@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 
 namespace airybench {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "assembly/rough_compliance.hpp"
 #include "bench/verify/contact_violations.hpp"
 #include "solvers/base/dense_products.hpp"

@@ -15,7 +15,7 @@
 #include <optional>
 
 #include "assembly/dual_system.hpp"
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 #include "bench/verify/reference.hpp"
 #include "solvers/base/solution.hpp"
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "assembly/exact_data.hpp"
+#include "assembly/elements/exact_data.hpp"
 
 namespace airybench {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 #include "assembly/rough_compliance.hpp"
 #include "solvers/condensation/airy_residual.hpp"
 #include "solvers/contact/active_set.hpp"

@@ -5,7 +5,7 @@
 #include <random>
 #include <utility>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "assembly/hct_action.hpp"
 #include "assembly/row_order.hpp"
 

@@ -1,6 +1,6 @@
 #include "solvers/condensation/edge_unknowns.hpp"
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 
 namespace airybench {
 

@@ -13,8 +13,8 @@
 
 #include <vector>
 
-#include "assembly/equilibrium_element.hpp"
-#include "assembly/problem.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
+#include "assembly/problem/problem.hpp"
 
 namespace airybench {
 

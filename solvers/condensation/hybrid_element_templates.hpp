@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "assembly/equilibrium_element.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
 #include "solvers/condensation/edge_unknowns.hpp"
 #include "solvers/condensation/hybrid_element.hpp"
 

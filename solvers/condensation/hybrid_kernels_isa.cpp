@@ -6,7 +6,7 @@
 // Instructions of this set must not reach code that other processors run. So nothing here is
 // instantiated for a type that other files use too — all are packs of this width —, and a test
 // reads the object's symbols.
-#include "assembly/equilibrium_element_templates.hpp"
+#include "assembly/elements/equilibrium_element_templates.hpp"
 #include "solvers/base/pack.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"

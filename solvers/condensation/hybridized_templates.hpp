@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
 #include "solvers/condensation/hybridized.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 #include "solvers/contact/active_set.hpp"
 
 namespace airybench {

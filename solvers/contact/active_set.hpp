@@ -16,7 +16,7 @@
 // closed components: dense, or sparse where D is (sparse_freedoms.hpp).
 #pragma once
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 #include "solvers/contact/condensed.hpp"
 
 namespace airybench {

@@ -8,8 +8,8 @@
 
 #include <Eigen/LU>
 
-#include "assembly/bernstein.hpp"
 #include "assembly/control_points.hpp"
+#include "assembly/elements/bernstein.hpp"
 #include "solvers/base/kept_body.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "assembly/equilibrium_element.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/finish.hpp"
 #include "solvers/condensation/library_stiffness.hpp"

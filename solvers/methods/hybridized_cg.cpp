@@ -4,7 +4,7 @@
 #include <memory>
 #include <sstream>
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 #include "solvers/base/kept_body.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/contact_compliance.hpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 
 namespace airybench {
 namespace {

@@ -18,7 +18,7 @@
 // ALM's estimate (docs/theory.md).
 #pragma once
 
-#include "assembly/load_scale.hpp"
+#include "assembly/problem/load_scale.hpp"
 #include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/two_level/active_rows.hpp"
 

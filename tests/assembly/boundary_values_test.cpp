@@ -1,10 +1,10 @@
 // Tractions and supports by boundary groups: what they become, and what is refused.
-#include "assembly/boundary_values.hpp"
+#include "assembly/problem/boundary_values.hpp"
 
 #include <gtest/gtest.h>
 
 #include "assembly/dual_system.hpp"
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"

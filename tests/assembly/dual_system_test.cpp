@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "assembly/stress_field.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/dense_algebra.hpp"

@@ -1,13 +1,13 @@
 // The element of every degree by its mathematical properties: as many stresses as counted, all in
 // equilibrium, no spurious mode, polynomial fields exact, the order of convergence, slivers.
-#include "assembly/equilibrium_element.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "assembly/edge_forces.hpp"
-#include "assembly/elasticity.hpp"
+#include "assembly/elements/edge_forces.hpp"
+#include "assembly/elements/elasticity.hpp"
 #include "mesh/mesh.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/kolosov_fields.hpp"

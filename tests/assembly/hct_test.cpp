@@ -1,6 +1,6 @@
 // The element by its mathematical properties: cubics reproduced, C¹ everywhere, divergence-free
 // stress, the right kernel.
-#include "assembly/hct.hpp"
+#include "assembly/elements/hct.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "assembly/elasticity.hpp"
+#include "assembly/elements/elasticity.hpp"
 #include "assembly/hct_action.hpp"
 #include "mesh/mesh.hpp"
 #include "support/wide.hpp"

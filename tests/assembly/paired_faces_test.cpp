@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "assembly/matched_faces.hpp"
+#include "assembly/problem/matched_faces.hpp"
+#include "assembly/problem/pose.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/two_blocks.hpp"
 

@@ -1,4 +1,4 @@
-#include "assembly/rigid_motion.hpp"
+#include "assembly/problem/rigid_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "assembly/small_cholesky.hpp"
+#include "assembly/elements/small_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The gap as it is, against a sum over many points of an edge.
-#include "assembly/wall_gap.hpp"
+#include "assembly/problem/wall_gap.hpp"
 
 #include <gtest/gtest.h>
 

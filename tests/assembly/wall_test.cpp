@@ -1,14 +1,14 @@
 // Walls: the gap along an edge's normal, what is out of reach, groups of their own, what is
 // refused.
-#include "assembly/wall.hpp"
+#include "assembly/problem/wall.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "assembly/dual_system.hpp"
-#include "assembly/edge_forces.hpp"
-#include "assembly/scene.hpp"
+#include "assembly/elements/edge_forces.hpp"
+#include "assembly/problem/pose.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"

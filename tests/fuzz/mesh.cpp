@@ -1,7 +1,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/fuzz/readers.hpp"
 

@@ -1,3 +1,4 @@
+#include "assembly/problem/pose.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "tests/fuzz/readers.hpp"
 #include "tests/support/small_meshes.hpp"

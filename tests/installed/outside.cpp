@@ -3,7 +3,7 @@
 #include <exception>
 #include <memory>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "bench/verify/verifier.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"

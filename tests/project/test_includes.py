@@ -6,32 +6,35 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
 
+ASSEMBLY = ["assembly", "assembly/problem", "assembly/elements"]
 # What a room may use besides itself, from the top of the house down; CMake links the same.
 ROOMS = {
     "support": [],
     "mesh": ["support"],
     "meshgen": ["mesh", "support"],
-    "assembly": ["mesh", "support"],
-    "solvers": ["assembly", "mesh", "support"],
-    "bench/verify": ["solvers", "assembly", "mesh", "support"],
+    "assembly/elements": ["support"],  # no mesh, no scene
+    "assembly/problem": ["assembly/elements", "mesh", "support"],
+    "assembly": ["assembly/problem", "assembly/elements", "mesh", "support"],
+    "solvers": [*ASSEMBLY, "mesh", "support"],
+    "bench/verify": ["solvers", *ASSEMBLY, "mesh", "support"],
     # Records and reports on them: without solvers.
     "bench/records": ["support"],
     "bench/report": ["bench/records", "support"],
     # What runs cases.
-    "bench/plan": ["bench/records", "solvers", "assembly", "mesh", "support"],
-    "bench/measure": ["bench/plan", "bench/verify", "bench/records", "solvers", "assembly", "mesh",
+    "bench/plan": ["bench/records", "solvers", *ASSEMBLY, "mesh", "support"],
+    "bench/measure": ["bench/plan", "bench/verify", "bench/records", "solvers", *ASSEMBLY, "mesh",
                       "support"],
-    "bench/problems": ["bench/plan", "bench/verify", "bench/records", "solvers", "assembly", "mesh",
+    "bench/problems": ["bench/plan", "bench/verify", "bench/records", "solvers", *ASSEMBLY, "mesh",
                        "support"],
     "bench/external": ["bench/problems", "bench/plan", "bench/verify", "bench/records", "solvers",
-                       "assembly", "mesh", "support"],
+                       *ASSEMBLY, "mesh", "support"],
     "bench/check": ["bench/external", "bench/problems", "bench/measure", "bench/plan",
-                    "bench/verify", "bench/records", "solvers", "assembly", "mesh", "support"],
+                    "bench/verify", "bench/records", "solvers", *ASSEMBLY, "mesh", "support"],
     "bench/run": ["bench/measure", "bench/plan", "bench/verify", "bench/report", "bench/records",
-                  "solvers", "assembly", "mesh", "support"],
+                  "solvers", *ASSEMBLY, "mesh", "support"],
     "bench/commands": ["bench/run", "bench/check", "bench/measure", "bench/external", "bench/problems",
                        "bench/report", "bench/plan", "bench/records", "solvers", "mesh", "support"],
-    "bench": ["bench/commands", "bench/run", "bench/measure", "solvers", "assembly", "mesh",
+    "bench": ["bench/commands", "bench/run", "bench/measure", "solvers", *ASSEMBLY, "mesh",
               "support"],
 }
 
@@ -56,7 +59,7 @@ FOLDERS_OF_SOLVERS = {
 
 
 def room(file: str) -> str:
-    return Path(file).parent.as_posix() if file.startswith("bench/") else Path(file).parts[0]
+    return Path(file).parent.as_posix() if file.startswith(("bench/", "assembly/")) else Path(file).parts[0]
 
 
 def folder_of_solvers(file: str) -> str:
@@ -93,7 +96,8 @@ class IncludesTest(unittest.TestCase):
     def test_planted_violations_are_seen(self) -> None:
         for file, included in (("bench/report/claims.cpp", "solvers/methods.hpp"),
                                ("solvers/methods/blind.cpp", "bench/verify/verifier.hpp"),
-                               ("mesh/mesh.cpp", "assembly/problem.hpp"),
+                               ("mesh/mesh.cpp", "assembly/problem/problem.hpp"),
+                               ("assembly/problem/scene.cpp", "assembly/dual_system.hpp"),
                                ("solvers/contact/gauss_seidel.cpp",
                                 "solvers/condensation/three_step.hpp"),
                                ("bench/records/record.cpp", "bench/run/runner.hpp")):

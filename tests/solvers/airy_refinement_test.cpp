@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "solvers/condensation/airy_residual.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"

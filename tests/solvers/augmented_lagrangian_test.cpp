@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "solvers/base/anderson_acceleration.hpp"
 #include "solvers/uzawa/accelerated_lagrangian.hpp"
 #include "tests/support/dense_operators.hpp"

@@ -5,7 +5,7 @@
 
 #include <csignal>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "tests/support/complaint.hpp"

@@ -2,8 +2,8 @@
 // grows, the contact law, loads and supports.
 #include <gtest/gtest.h>
 
-#include "assembly/elasticity.hpp"
-#include "assembly/equilibrium_element.hpp"
+#include "assembly/elements/elasticity.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
 #include "mesh/bisection.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/contact/condensed.hpp"

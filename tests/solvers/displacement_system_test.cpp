@@ -8,7 +8,7 @@
 #include <complex>
 
 #include "assembly/control_points.hpp"
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/far_from_origin.hpp"

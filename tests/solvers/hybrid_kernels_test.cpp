@@ -7,7 +7,7 @@
 #include <cstring>
 #include <random>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "tests/support/small_meshes.hpp"
 

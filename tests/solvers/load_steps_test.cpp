@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "solvers/base/kept_body.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/methods.hpp"

@@ -2,7 +2,7 @@
 // in product_test.cpp; constant stress at a wall is in tests/validation.
 #include <gtest/gtest.h>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/far_from_origin.hpp"
 #include "tests/support/method_names.hpp"

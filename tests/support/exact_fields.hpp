@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "assembly/displacement_field.hpp"
-#include "assembly/problem.hpp"
+#include "assembly/problem/problem.hpp"
 #include "assembly/stress_field.hpp"
 
 namespace airybench::testing {

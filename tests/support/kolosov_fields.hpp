@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/elasticity.hpp"
-#include "assembly/equilibrium_element.hpp"
+#include "assembly/elements/elasticity.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
 
 namespace airybench::testing {
 

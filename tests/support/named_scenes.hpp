@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 
 namespace airybench::testing {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "assembly/dual_system.hpp"
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::testing {

@@ -1,7 +1,7 @@
 #include "tests/support/quad.hpp"
 
-#include "assembly/equilibrium_element_templates.hpp"
-#include "assembly/reference_element_templates.hpp"
+#include "assembly/elements/equilibrium_element_templates.hpp"
+#include "assembly/elements/reference_element_templates.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybridized_templates.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 
 namespace airybench::testing {
 

@@ -1,7 +1,7 @@
 // Two blocks in contact: meshes that do not match, and a scene that presses them together.
 #pragma once
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "tests/support/pieces.hpp"
 
 namespace airybench::testing {

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "assembly/control_points.hpp"
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/verify/verifier.hpp"
 #include "tests/support/exact_fields.hpp"

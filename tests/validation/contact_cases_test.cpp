@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "assembly/control_points.hpp"
-#include "assembly/edge_forces.hpp"
+#include "assembly/elements/edge_forces.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/contact/condensed.hpp"

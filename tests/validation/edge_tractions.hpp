@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "assembly/problem.hpp"
+#include "assembly/problem/problem.hpp"
 #include "solvers/contact/paired_points.hpp"
 #include "tests/support/dense_algebra.hpp"
 

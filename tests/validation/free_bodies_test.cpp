@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "assembly/problem/pose.hpp"
 #include "bench/verify/verifier.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/pieces.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "assembly/edge_forces.hpp"
-#include "assembly/elasticity.hpp"
-#include "assembly/scene.hpp"
+#include "assembly/elements/edge_forces.hpp"
+#include "assembly/elements/elasticity.hpp"
+#include "assembly/problem/pose.hpp"
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "bench/verify/reference.hpp"

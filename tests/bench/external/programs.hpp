@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"

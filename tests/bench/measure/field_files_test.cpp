@@ -9,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"

@@ -11,7 +11,7 @@
 #include <new>
 #include <thread>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/measure/environment.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"

@@ -8,7 +8,7 @@
 #include <map>
 #include <ostream>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/record.hpp"

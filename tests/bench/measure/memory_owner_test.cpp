@@ -8,7 +8,7 @@
 #include <functional>
 #include <thread>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/measure/solve_watch.hpp"
 #include "mesh/msh_format.hpp"

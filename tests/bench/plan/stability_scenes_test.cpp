@@ -1,6 +1,7 @@
 // The scene files of the stability atlas.
 #include <gtest/gtest.h>
 
+#include "assembly/problem/pose.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/verify/reference.hpp"
 #include "mesh/msh_format.hpp"

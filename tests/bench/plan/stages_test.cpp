@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 

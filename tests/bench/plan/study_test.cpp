@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "bench/plan/plan.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/record_files.hpp"

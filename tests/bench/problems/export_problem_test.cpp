@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "assembly/dual_system.hpp"
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/problems/problem_arrays.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/bench_command.hpp"

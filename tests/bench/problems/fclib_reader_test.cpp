@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/problems/hdf5_handle.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "bench/verify/verifier.hpp"

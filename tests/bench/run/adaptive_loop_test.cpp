@@ -1,5 +1,6 @@
 // The adaptive loop: what it reaches, how fast the error falls, and how it ends when it cannot.
 #include "bench/run/adaptive_loop.hpp"
+#include "assembly/problem/pose.hpp"
 
 #include <gtest/gtest.h>
 

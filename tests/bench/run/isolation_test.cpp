@@ -9,7 +9,7 @@
 #include <limits>
 #include <thread>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/records/summary.hpp"

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/run/noise_watch.hpp"
 #include "bench/run/runner.hpp"
 #include "solvers/methods.hpp"

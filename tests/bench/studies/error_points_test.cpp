@@ -2,7 +2,7 @@
 // may not grow, nor an error.
 #include <fmt/format.h>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/plan/study.hpp"
 #include "bench/records/summary.hpp"
 #include "mesh/msh_format.hpp"

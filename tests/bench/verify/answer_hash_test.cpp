@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"

@@ -1,5 +1,6 @@
 // The constitutive relation error: an identity, signs, bounds, and that it sees what is spoiled.
 #include "bench/verify/discretisation_error.hpp"
+#include "assembly/problem/pose.hpp"
 
 #include <numeric>
 

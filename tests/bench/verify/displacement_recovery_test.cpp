@@ -1,6 +1,7 @@
 // The recovered displacement: exact where HYBRID is, admissible everywhere, and its error near
 // P2's.
 #include "bench/verify/displacement_recovery.hpp"
+#include "assembly/problem/pose.hpp"
 
 #include <algorithm>
 

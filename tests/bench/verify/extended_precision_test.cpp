@@ -6,7 +6,7 @@
 #include <Eigen/SparseCholesky>
 #include <filesystem>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/verify/verifier.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/condensation/hybridized.hpp"

@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/verify/verifier.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "assembly/problem/pose.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/contact/coulomb_law.hpp"

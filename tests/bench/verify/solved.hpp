@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/pose.hpp"
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/scene.hpp"
+#include "assembly/problem/scene.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"

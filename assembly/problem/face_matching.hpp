@@ -1,0 +1,52 @@
+// Two contact faces whose meshes are made to match, node by node: what matched_faces.hpp builds on.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assembly/problem/scene.hpp"
+
+namespace airybench {
+
+// The curve that a group of contact edges stands for, if the scene gives one.
+const std::optional<Wall>& curve_of(const Scene& scene, const std::string& label);
+
+// The edges of one or more groups, with a normal at every vertex.
+struct MatchingFace {
+  std::vector<int> rows;                     // of Mesh::boundary
+  std::map<int, std::optional<Wall>> curve;  // per row
+  std::map<int, Eigen::Vector2d> normal;     // per vertex: the mean of two edges', or the curve's
+  std::set<int> fixed;                       // vertices that must stay: ends and corners
+};
+MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, const Scene& scene);
+
+// Throws TransformError if the curve that a contact edge stands for is farther from it.
+void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
+                double allowed_mm);
+inline constexpr double most_of_face = 0.05;  // of the mesh's size
+
+// The group of contact edges that meet nothing, and are free.
+inline constexpr std::string_view out_of_reach = "out of reach";
+
+struct FaceMatching {
+  std::map<int, int> twin;  // per vertex of the first face, the vertex of the second that it faces
+  std::array<std::map<int, Eigen::Vector2d>, 2> normal;  // per face and vertex
+  Problem::Matching changes;
+  std::vector<int> split_rows;  // of Mesh::boundary, with vertices inserted
+  // A place that two vertices of the other face meet: a step or a fold of that face.
+  std::optional<Eigen::Vector2d> met_twice;
+};
+
+// A vertex nearer to one of the other face than this share of the shorter edge at either is moved.
+inline constexpr double snapping = 0.15;
+
+// Puts the vertices of each face into the other, or moves those that nearly match. Vertices farther
+// apart than reach_mm do not face each other. Where a place is met twice, the mesh is of no use.
+FaceMatching match_faces(Mesh& mesh, std::array<MatchingFace, 2> faces, double reach_mm);
+
+}  // namespace airybench

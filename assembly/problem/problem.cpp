@@ -1,0 +1,178 @@
+#include "assembly/problem/problem.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "assembly/elements/bernstein.hpp"
+#include "assembly/elements/edge_forces.hpp"
+
+namespace airybench {
+namespace {
+
+void take_out_rigid_motion(Problem& problem) {
+  SplitDisplacement split = split_rigid_motion(problem);
+  problem.motion = split.motion;
+  problem.loads.displacement_mm = std::move(split.rest_mm);
+}
+
+std::vector<int> central_vertices(const Problem& problem, const MeshPieces& pieces) {
+  const auto count = static_cast<std::size_t>(pieces.count);
+  std::vector<Eigen::Vector2d> moment(count, Eigen::Vector2d::Zero());
+  std::vector<double> area(count, 0), nearest(count, std::numeric_limits<double>::infinity());
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const int piece = pieces.of_vertex[problem.mesh.triangles[t][0]];
+    area[piece] += problem.area_mm2(t);
+    moment[piece] += problem.area_mm2(t) * problem.vertices_of(t).rowwise().mean();
+  }
+  std::vector<int> central(count, 0);
+  for (int v = 0; v < static_cast<int>(problem.mesh.vertices.size()); ++v) {
+    const int piece = pieces.of_vertex[v];
+    const double distance = (problem.mesh.vertices[v] - moment[piece] / area[piece]).squaredNorm();
+    if (distance < nearest[piece]) {
+      nearest[piece] = distance;
+      central[piece] = v;
+    }
+  }
+  return central;
+}
+
+// Empty without friction.
+std::vector<double> friction_on_contact(const Mesh& mesh, std::vector<double> friction) {
+  for (std::size_t row = 0; row < friction.size(); ++row)
+    if (mesh.boundary[row].role != BoundaryRole::contact) friction[row] = 0;
+  if (std::ranges::all_of(friction, [](double mu) { return mu == 0; })) friction.clear();
+  return friction;
+}
+
+}  // namespace
+
+TriangleVertices Problem::vertices_of(int triangle) const {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  TriangleVertices v;
+  v << mesh.vertices[a], mesh.vertices[b], mesh.vertices[c];
+  return v;
+}
+
+EdgeSigns Problem::edge_signs(int triangle) const {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return {a < b ? 1. : -1., b < c ? 1. : -1., c < a ? 1. : -1.};
+}
+
+ContactOffset Problem::offset_at(const Eigen::Vector2d& x, int boundary_row) const {
+  ContactOffset offset{.motion_mm = motion_at(x, mesh.boundary[boundary_row].vertices[0])};
+  if (loads.gap_mm) offset.gap_mm = loads.gap_mm(x, boundary_row);
+  return offset;
+}
+
+bool Problem::contact_turns() const {
+  for (std::size_t row = 0; row < contact_normals.size(); ++row)
+    if (mesh.boundary[row].role == BoundaryRole::contact &&
+        contact_normals[row].at(0, 2) != contact_normals[row].at(2, 2))
+      return true;
+  return false;
+}
+
+EdgeCondition Problem::condition(int boundary_row) const {
+  using enum Known;
+  switch (mesh.boundary[boundary_row].role) {
+    case BoundaryRole::displacement:
+      return is_roller(boundary_row) ? EdgeCondition{true, {displacement, force}}
+                                     : EdgeCondition{false, {displacement, displacement}};
+    case BoundaryRole::contact:
+      return {true, {contact_law, has_friction() ? contact_law : force}};
+    case BoundaryRole::force:
+      break;
+  }
+  return {false, {force, force}};
+}
+
+EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
+  EdgeMoments moments = EdgeMoments::Zero(2, degree + 1);
+  const auto& u0 = loads.displacement_mm;
+  if (!u0) return moments;
+  const auto [start, end] = mesh.boundary[boundary_row].vertices;
+  const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
+  const std::array<Eigen::Vector2d, 3> coefficients =
+      edge_coefficients(u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
+  for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of(degree, j, coefficients);
+  if (is_roller(boundary_row)) {
+    const Eigen::Vector2d n = edge_frame(a, b).normal;
+    moments = (n * (n.transpose() * moments)).eval();
+  }
+  return moments;
+}
+
+bool same_body(const Problem& a, const Problem& b) {
+  const auto alike = [](const BoundaryEdge& x, const BoundaryEdge& y) {
+    return x.vertices == y.vertices && x.role == y.role;
+  };
+  if (a.mesh.vertices != b.mesh.vertices || a.mesh.triangles != b.mesh.triangles ||
+      a.mesh.triangle_body != b.mesh.triangle_body || a.compliance != b.compliance ||
+      !std::ranges::equal(a.mesh.boundary, b.mesh.boundary, alike) ||
+      a.contact_normals != b.contact_normals || a.opposite != b.opposite)
+    return false;
+  for (int row = 0; row < static_cast<int>(a.mesh.boundary.size()); ++row)
+    if (const EdgeCondition x = a.condition(row), y = b.condition(row);
+        x.in_frame != y.in_frame || x.component != y.component)
+      return false;
+  return true;
+}
+
+Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
+                     double friction) {
+  const std::vector<double> everywhere(mesh.boundary.size(), friction);
+  return make_problem(std::move(mesh), std::move(compliance), std::move(loads), everywhere);
+}
+
+Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
+                     const std::vector<double>& friction) {
+  assert(compliance.size() == mesh.body_names.size());
+  assert(loads.rollers.empty() || loads.rollers.size() == mesh.boundary.size());
+  assert(friction.size() == mesh.boundary.size());
+  std::vector<double> on_contact = friction_on_contact(mesh, friction);
+  Problem problem{.mesh = std::move(mesh),
+                  .compliance = std::move(compliance),
+                  .loads = std::move(loads),
+                  .friction = std::move(on_contact)};
+  problem.edges = number_edges(problem.mesh);
+  take_out_rigid_motion(problem);
+
+  const MeshPieces pieces = pieces_of(problem.mesh);
+  problem.free = free_motions(problem.mesh, problem.loads.rollers, pieces);
+  problem.central_vertices = central_vertices(problem, pieces);
+  return problem;
+}
+
+SplitDisplacement split_rigid_motion(const Problem& problem) {
+  std::vector<PrescribedEdge> edges;
+  const auto& x = problem.mesh.vertices;
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (const BoundaryEdge& edge = problem.mesh.boundary[row];
+        edge.role == BoundaryRole::displacement)
+      edges.push_back({x[edge.vertices[0]], x[edge.vertices[1]], row, problem.is_roller(row)});
+  return split_rigid_motion(problem.loads.displacement_mm, edges);
+}
+
+Problem with_loads(const Problem& problem, Loads loads) {
+  Problem result{.mesh = problem.mesh,
+                 .edges = problem.edges,
+                 .compliance = problem.compliance,
+                 .loads = std::move(loads),
+                 .free = problem.free,
+                 .friction = problem.friction,
+                 .contact_normals = problem.contact_normals,
+                 .opposite = problem.opposite,
+                 .matching = problem.matching,
+                 .central_vertices = problem.central_vertices};
+  result.free.amounts_mm.resize(0);
+  take_out_rigid_motion(result);
+  return result;
+}
+
+Problem with_free_motion(Problem problem, Eigen::VectorXd amounts_mm) {
+  problem.free.amounts_mm = std::move(amounts_mm);
+  return problem;
+}
+
+}  // namespace airybench

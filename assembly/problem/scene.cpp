@@ -1,0 +1,146 @@
+#include "assembly/problem/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/problem/scene_errors.hpp"
+#include "support/lists.hpp"
+
+namespace airybench {
+namespace {
+
+void check_material(const Scene& scene, const std::string& prefix, const Material& material) {
+  if (!(material.young_MPa >= 1e-30 && material.young_MPa <= 1e30))
+    fail(scene, prefix + "young_MPa", material.young_MPa, "(allowed: 1e-30 to 1e30)");
+  if (!(material.poisson > -1 && material.poisson < 0.5))
+    fail(scene, prefix + "poisson", material.poisson,
+         "(allowed: between -1 and 0.5, both excluded)");
+}
+
+void check_friction(const Scene& scene, const std::string& key, double friction) {
+  if (!(friction >= 0 && friction <= max_friction))
+    fail(scene, key, friction, "(allowed: 0 to 1e6)");
+}
+
+void check_loads(const Scene& scene, const std::string& prefix, const BoundaryConditions& boundary,
+                 double clearance_mm, const Eigen::Vector2d& displacement_mm,
+                 const Eigen::Vector2d& body_force_N_per_mm3) {
+  of_scene(scene, prefix + "boundary", [&] { check_values(boundary); });
+  if (!(clearance_mm >= 0) || !std::isfinite(clearance_mm))
+    fail(scene, prefix + "clearance_mm", clearance_mm, "(allowed: >= 0)");
+  if (!displacement_mm.allFinite())
+    fail(scene, prefix + "displacement_mm", shown(displacement_mm), "(allowed: finite numbers)");
+  if (!body_force_N_per_mm3.allFinite())
+    fail(scene, prefix + "body_force_N_per_mm3", shown(body_force_N_per_mm3),
+         "(allowed: finite numbers)");
+}
+
+void check_clearance(const Scene& scene, const std::string& prefix, const ContactPair& pair) {
+  if (pair.clearance_mm && !std::isfinite(*pair.clearance_mm))
+    fail(scene, prefix + "contacts: clearance_mm", *pair.clearance_mm, "(allowed: finite numbers)");
+}
+
+void check_contacts(const Scene& scene) {
+  for (const ContactPair& pair : scene.contacts) {
+    if (pair.friction) check_friction(scene, "contacts: friction", *pair.friction);
+    check_clearance(scene, "", pair);
+  }
+  for (const auto& [label, values] : scene.boundary)
+    if (is_paired(scene, label))
+      for (const auto& [key, is_given] :
+           {std::pair("friction", values.contact.friction.has_value()),
+            {"clearance_mm", values.contact.clearance_mm.has_value()},
+            {"wall", values.contact.wall.has_value()}})
+        if (is_given)
+          fail(scene, "boundary: " + label, key,
+               "of a group in contacts (allowed: face; friction and clearance_mm of the pair)");
+}
+
+void check_faces(const Scene& scene) {
+  constexpr const char* why = "without a wall (allowed: with one)";
+  bool used = scene.wall.has_value();
+  for (const auto& [label, values] : scene.boundary) {
+    used |= values.contact.wall.has_value();
+    if (values.contact.face && !values.contact.wall && !scene.wall && !is_paired(scene, label))
+      fail(scene, "boundary: " + label, "face", why);
+  }
+  if (scene.face && !used) fail(scene, "face", "given", why);
+}
+
+void check_contacts_of_step(const Scene& scene, std::size_t k) {
+  const std::vector<ContactPair>& contacts = scene.later_steps[k].contacts;
+  for (const ContactPair& pair : contacts) {
+    if (std::ranges::count(contacts, pair.between, &ContactPair::between) > 1)
+      fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
+           "twice (allowed: every pair once)");
+    if (std::ranges::count(scene.contacts, pair.between, &ContactPair::between) == 0)
+      fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
+           "(allowed: as in contacts of the scene)");
+    if (pair.friction || !pair.clearance_mm)
+      fail(scene, step_prefix(k) + "contacts", names_of(pair),
+           "(allowed: clearance_mm, and no friction)");
+    check_clearance(scene, step_prefix(k), pair);
+  }
+}
+
+void check_steps(const Scene& scene) {
+  if (scene.equal_steps < 1 || scene.equal_steps > most_load_steps)
+    fail(scene, "load_steps", scene.equal_steps,
+         "(allowed: from 1 to " + std::to_string(most_load_steps) + ")");
+  if (scene.equal_steps > 1 && !scene.later_steps.empty())
+    fail(scene, "load_steps", scene.equal_steps, "and a list (allowed: one of them)");
+  for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
+    const LoadStep& step = scene.later_steps[k];
+    check_loads(scene, step_prefix(k), step.boundary, step.clearance_mm.value_or(0),
+                step.displacement_mm.value_or(Eigen::Vector2d::Zero()),
+                step.body_force_N_per_mm3.value_or(Eigen::Vector2d::Zero()));
+    for (const auto& [label, values] : step.boundary) {
+      if (values.contact.clearance_mm && is_paired(scene, label))
+        fail(scene, step_prefix(k) + "boundary: " + label, "clearance_mm",
+             "of a group in contacts (allowed: clearance_mm of the pair, in contacts)");
+      for (const auto& [key, is_given] : {std::pair("support", values.support.has_value()),
+                                          {"friction", values.contact.friction.has_value()},
+                                          {"wall", values.contact.wall.has_value()},
+                                          {"face", values.contact.face.has_value()}})
+        if (is_given)
+          fail(scene, step_prefix(k) + "boundary: " + label, key,
+               "(allowed: traction_MPa, pressure_MPa, displacement_mm, clearance_mm)");
+    }
+    check_contacts_of_step(scene, k);
+  }
+}
+
+}  // namespace
+
+std::string names_of(const ContactPair& pair) {
+  return joined(pair.between[0]) + " and " + joined(pair.between[1]);
+}
+
+bool is_paired(const Scene& scene, const std::string& label) {
+  return std::ranges::any_of(scene.contacts,
+                             [&](const ContactPair& pair) { return pair.has(label); });
+}
+
+void check_values(const Scene& scene) {
+  check_material(scene, "", scene.material);
+  for (const auto& [body, material] : scene.materials)
+    check_material(scene, "materials: " + body + ": ", material);
+  for (const Material& material : scene.layer_materials)
+    check_material(scene, "layers: materials: ", material);
+  of_scene(scene, "mesh", [&] { check_values(scene.mesh); });
+  of_scene(scene, "layers", [&] { check_values(scene.layers); });
+  check_friction(scene, "friction", scene.friction);
+  if (scene.crown_radius_mm &&
+      (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
+    fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
+         "(allowed: > 0, or null for a wall on the edges)");
+  of_scene(scene, "", [&] { check_curve("wall", scene.wall); });
+  of_scene(scene, "", [&] { check_curve("face", scene.face); });
+  check_contacts(scene);
+  check_faces(scene);
+  check_loads(scene, "", scene.boundary, scene.clearance_mm, scene.displacement_mm,
+              scene.body_force_N_per_mm3);
+  check_steps(scene);
+}
+
+}  // namespace airybench
