@@ -61,7 +61,7 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   CLI::App app("Which mesh and method give a total error, how long they take, in how much memory.",
                "{bench} advise");
   app.footer(advise_footer);
-  add_one_body(app, options);
+  add_one_body(app, options.run);
   app.add_option("--error", error, "total error, relative: 1%")->required();
   app.add_option("--method", options.run.methods, "to compare, by names or globs")
       ->capture_default_str();
@@ -70,7 +70,7 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   add_number(
       app, "--budget", Least::above_zero, most_of_a_limit, budget_s,
       "seconds for measuring methods; leaves out those that do not fit in by earlier records");
-  add_memory_limit(app, options);
+  add_memory_limit(app, options.limits);
   app.add_option("--out", options.output.folder, "folder of the output files")
       ->capture_default_str();
   parse_command_line(app, argc, argv);
@@ -156,11 +156,10 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
 }
 
 // Why a method is not worth a measurement next to the fastest one; empty: it is.
-std::string why_hopeless(const Prediction& expected, const Prediction& fastest,
-                         const Options& options) {
+std::string why_hopeless(const Prediction& expected, const Prediction& fastest, double timeout_s) {
   constexpr double hopeless = 30;
   if (expected.timeout == LimitMark::above)
-    return fmt::format("forecast: over --timeout={:g}", options.limits.timeout_s);
+    return fmt::format("forecast: over --timeout={:g}", timeout_s);
   if (expected.memory_limit == LimitMark::above) return "forecast: over --memory-limit";
   if (!expected.time_s || !fastest.time_s) return "";
   const double ratio = expected.time_s->value / fastest.time_s->value;
@@ -170,12 +169,11 @@ std::string why_hopeless(const Prediction& expected, const Prediction& fastest,
 // Removes hopeless cases, then the longest ones until earlier records say that the rest fits into
 // the budget; keeps the shortest case that is forecast, and cases without records. Returns a row
 // for each removed case.
-std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s,
+std::vector<Advice> leave_out(std::vector<Case>& plan, const Limits& limits, double budget_s,
                               const std::vector<Record>& past) {
   std::vector<Record> planned;
-  for (const Case& c : plan) planned.push_back(blank_record(c, options.limits));
-  const std::vector<Prediction> expected =
-      forecast(planned, past, limits_of(options.limits, plan)).cases;
+  for (const Case& c : plan) planned.push_back(blank_record(c, limits));
+  const std::vector<Prediction> expected = forecast(planned, past, limits_of(limits, plan)).cases;
   std::vector<std::size_t> order(plan.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return expected[k].run_s.value_or(0); });
@@ -187,7 +185,7 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
   double spent_s = 0;
   for (const std::size_t k : order) {
     spent_s += expected[k].run_s.value_or(0);
-    std::string why = why_hopeless(expected[k], expected[shortest], options);
+    std::string why = why_hopeless(expected[k], expected[shortest], limits.timeout_s);
     if (why.empty() && spent_s > budget_s) why = "forecast: over --budget";
     stays[k] = why.empty() || k == shortest;
     if (stays[k]) continue;
@@ -277,19 +275,18 @@ int advise_command(int argc, const char* const* argv) {
   std::vector<Record> uniform;
   Output next = options.output;
   if (is_refined) {
-    uniform =
-        run_cases(
-            plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
-                       select_methods(uniform_candidate), options.run),
-            options.limits, options.output, context)
-            .records();
+    uniform = run_cases(plan_cases({adapted.levels.front(),
+                                    refined_scene(adapted.levels.front(), options.output.folder)},
+                                   select_methods(uniform_candidate), options.run),
+                        options.limits, options.output, context)
+                  .records();
     next.append = true;
     const double factor = time_of_machine(uniform.back(), past);
     for (Record& record : past)
       for (std::optional<double>* time : {&record.time_s, &record.extrapolated_time_s})
         if (*time) **time *= factor;
   }
-  const std::vector<Advice> left_out = leave_out(compared, options, budget_s, past);
+  const std::vector<Advice> left_out = leave_out(compared, options.limits, budget_s, past);
   std::vector<Record> records = run_cases(compared, options.limits, next, context).records();
 
   const double goal = *options.run.adapt.goals.front().error;

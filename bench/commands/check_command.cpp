@@ -28,7 +28,7 @@ int check_external(Options options) {
   const std::size_t all = scenes.size() + 1;
   std::size_t number = 0;
   const CheckReport report = check_program(
-      program, scenes, options.run.cases, options.limits, [&](const CheckedCase& seen) {
+      program, scenes, common_settings(options.run), options.limits, [&](const CheckedCase& seen) {
         std::cerr << fmt::format("[{}/{}] {}: {}\n", ++number, all, seen.name, seen.verdict)
                   << std::flush;
       });
@@ -45,8 +45,8 @@ int check_external(Options options) {
   return some_case_failed;
 }
 
-int new_external(const Options& options) {
-  const auto files = write_new_external(options.new_external);
+int new_external(const std::filesystem::path& name) {
+  const auto files = write_new_external(name);
   const std::string declaration = shell_word(files.back().string());
   const std::string bench = called_as("bench");
   fmt::print(

@@ -145,9 +145,9 @@ void add_files(CLI::App& app, const char* option, std::vector<std::filesystem::p
       about);
 }
 
-void add_memory_limit(CLI::App& app, Options& options) {
-  const auto read = [&options](const std::string& text) {
-    options.limits.memory_limit_bytes =
+void add_memory_limit(CLI::App& app, Limits& limits) {
+  const auto read = [&limits](const std::string& text) {
+    limits.memory_limit_bytes =
         read_whole("--memory-limit", text, 1, std::int64_t{1} << 40) * 1024 * 1024;
   };
   app.add_option_function<std::string>("--memory-limit", read,
@@ -167,12 +167,12 @@ void add_model_settings(CLI::App& app, std::vector<std::string>& settings) {
   }
 }
 
-void add_one_body(CLI::App& app, Options& options) {
-  app.add_option("--mesh", options.run.meshes, "one mesh: a name of the catalogue, or a file")
+void add_one_body(CLI::App& app, RunSettings& run) {
+  app.add_option("--mesh", run.meshes, "one mesh: a name of the catalogue, or a file")
       ->required()
       ->default_str("");
-  add_model_settings(app, options.run.model_settings);
-  app.add_option("--scene", options.run.scenes, "scene file; default: the documented tooth or rack")
+  add_model_settings(app, run.model_settings);
+  app.add_option("--scene", run.scenes, "scene file; default: the documented tooth or rack")
       ->expected(1);
 }
 

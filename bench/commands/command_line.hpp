@@ -60,11 +60,11 @@ struct ValueParts {
 // Takes files and globs, separated by commas; a glob without a match is taken as a file name.
 void add_files(CLI::App& app, const char* option, std::vector<std::filesystem::path>& files,
                const std::string& about);
-void add_memory_limit(CLI::App& app, Options& options);
+void add_memory_limit(CLI::App& app, Limits& limits);
 // --role, --parameter and --mesh-size become `settings` for `meshgen --convert`, which checks them.
 void add_model_settings(CLI::App& app, std::vector<std::string>& settings);
 // --mesh with model settings, and --scene: one of each.
-void add_one_body(CLI::App& app, Options& options);
+void add_one_body(CLI::App& app, RunSettings& run);
 
 // Stores an argument of Google Benchmark's as options, because plan and records depend on them.
 // Throws UsageError.

@@ -34,7 +34,7 @@ int export_problem_command(int argc, const char* const* argv) {
   std::string format;
   CLI::App app("A problem's matrices, for your own solvers.", "{bench} export-problem");
   app.footer(export_problem_footer);
-  add_one_body(app, options);
+  add_one_body(app, options.run);
   app.add_option("--format", format, "of the formats below")->required();
   app.add_option("--out", options.output.folder, "folder to write, which is not there yet or empty")
       ->required()

@@ -168,7 +168,7 @@ struct Adapted {
 
 std::vector<Case> plan_of(const Options& options, Adapted& adapted) {
   std::vector<PosedScene> scenes = posed_scenes(options);
-  if (!options.run.adapt.goals.empty()) check_adapting_method(options);
+  if (!options.run.adapt.goals.empty()) check_adapting_method(options.run.adapt.by);
   if (!options.run.adapt.goals.empty() && (options.dry_run || options.explain)) {
     std::cerr
         << "note: --adapt: of the first level alone; the others are known when it is solved\n";
@@ -214,7 +214,7 @@ int run_command(int argc, const char* const* argv) {
                shell_word(options.new_scene.string()), shell_word(scene));
     return all_ok;
   }
-  if (!options.new_external.empty()) return new_external(options);
+  if (!options.new_external.empty()) return new_external(options.new_external);
   if (!options.check.empty()) return check_external(std::move(options));
   if (!only_plans) require_threads(options.run.cases.threads);
   if (!only_plans) check_takes_records(options.output.folder);  // before meshes are written there
@@ -263,7 +263,7 @@ int run_command(int argc, const char* const* argv) {
     fmt::print("{} of these {} records were there already{}\n", result.earlier, cases,
                result.files->was_torn() ? ", and the start of another, which was run again" : "");
   if (result.earlier < std::ssize(plan)) fmt::print("{}\n", times_line(result.times));
-  print_warnings(machine_warnings(context, least_repetitions(options.limits), noise), early, cases);
+  print_warnings(machine_warnings(context, min_repetitions(options.limits), noise), early, cases);
   fmt::print("records.jsonl, results.csv, results.json in {}\n", options.output.folder.string());
   end_run(result, options.output.folder, options.run.cases.fields);
   if (cases != plan.size())

@@ -138,7 +138,7 @@ void add_measuring(CLI::App& app, Options& options, Texts& texts) {
                  "SECONDS[,tuning=SECONDS]: of one solve, and of a case's search for parameters "
                  "and tolerances")
       ->capture_default_str();
-  add_memory_limit(app, options);
+  add_memory_limit(app, options.limits);
 }
 
 void add_output(CLI::App& app, Options& options, Texts& texts) {
@@ -185,7 +185,7 @@ double share_of(const std::string& option, const std::string& text, const std::s
   return *share;
 }
 
-void read_study(const std::string& text, Options& options) {
+void read_study(const std::string& text, RunSettings& run) {
   if (text.empty()) return;
   const std::size_t colon = std::min(text.find(':'), text.size());
   const std::optional<Study> study = study_named(text.substr(0, colon));
@@ -194,52 +194,50 @@ void read_study(const std::string& text, Options& options) {
     for (const Study& known : all_studies()) names.push_back(known.name);
     refuse("--study", text, fmt::format("{}", fmt::join(names, ", ")));
   }
-  options.run.study = *study;
+  run.study = *study;
   if (colon == text.size()) return;
   if (study->points != Study::Points::accuracy)
     refuse("--study", text, "seconds with error, which chooses from points");
   for (const std::string& word : split_list(text.substr(colon + 1)))
-    options.run.budgets_s.push_back(
+    run.budgets_s.push_back(
         read_number("--study=" + study->name, word, Least::above_zero, most_of_a_limit));
-  std::ranges::sort(options.run.budgets_s);
+  std::ranges::sort(run.budgets_s);
 }
 
-void read_repetitions(const std::string& text, Options& options) {
+void read_repetitions(const std::string& text, Limits& limits) {
   constexpr int most = 100000;
   const std::string option = "--repetitions";
   const ValueParts parts(option, text, {"precision", "within"});
   const std::string& range = parts.only_item();
   const std::size_t dots = std::min(range.find(".."), range.size());
-  options.limits.repetitions = static_cast<int>(read_whole(option, range.substr(0, dots), 1, most));
-  options.limits.long_case_s =
-      parts.number("within", most_of_a_limit).value_or(options.limits.long_case_s);
+  limits.repetitions = static_cast<int>(read_whole(option, range.substr(0, dots), 1, most));
+  limits.long_case_s = parts.number("within", most_of_a_limit).value_or(limits.long_case_s);
   if (const auto share = parts.setting("precision"))
-    options.limits.precision = share_of(option + ": precision", *share, "as 2%");
+    limits.precision = share_of(option + ": precision", *share, "as 2%");
   if (dots < range.size()) {
-    options.limits.max_repetitions =
-        static_cast<int>(read_whole(option, range.substr(dots + 2), 1, most));
-    if (!options.limits.precision)
+    limits.max_repetitions = static_cast<int>(read_whole(option, range.substr(dots + 2), 1, most));
+    if (!limits.precision)
       refuse(option, text, "a range with a precision, " + shortened(range) + ",precision=2%");
   }
-  if (options.limits.precision &&
-      options.limits.max_repetitions < least_repetitions(options.limits))
-    refuse(option, fmt::format("at most {}", options.limits.max_repetitions),
-           fmt::format("from {} on", least_repetitions(options.limits)));
+  if (limits.precision && limits.max_repetitions < min_repetitions(limits))
+    refuse(option, fmt::format("at most {}", limits.max_repetitions),
+           fmt::format("from {} on", min_repetitions(limits)));
 }
 
 // With budgets, a run may take twice the largest one: a detail run takes longer than a timed run.
 // No recorded time includes the search for parameters, so its limit stays.
-void read_timeout(const std::string& text, bool is_given, Options& options) {
+void read_timeout(const std::string& text, bool is_given, const std::vector<double>& budgets_s,
+                  Limits& limits) {
   const ValueParts parts("--timeout", text, {"tuning"});
-  options.limits.timeout_s =
+  limits.timeout_s =
       read_number("--timeout", parts.only_item(), Least::above_zero, most_of_a_limit);
-  options.limits.tuning_budget_s = parts.number("tuning", most_of_a_limit);
-  if (options.run.budgets_s.empty() || is_given) return;
-  if (!options.limits.tuning_budget_s) options.limits.tuning_budget_s = options.limits.timeout_s;
-  options.limits.timeout_s = 2 * options.run.budgets_s.back();
+  limits.tuning_budget_s = parts.number("tuning", most_of_a_limit);
+  if (budgets_s.empty() || is_given) return;
+  if (!limits.tuning_budget_s) limits.tuning_budget_s = limits.timeout_s;
+  limits.timeout_s = 2 * budgets_s.back();
 }
 
-void read_adapt(const std::string& text, Options& options) {
+void read_adapt(const std::string& text, Adaptation& adapt) {
   const ValueParts parts("--adapt", text, {"by", "levels", "marking"});
   const std::vector<std::string> none = {""};
   for (const std::string& item : parts.items.empty() ? none : parts.items) {
@@ -248,21 +246,21 @@ void read_adapt(const std::string& text, Options& options) {
       refuse("--adapt", item,
              "a total error above 0% and below 100%, as 1%, or a number of unknowns from "
              "100 to 5000000");
-    options.run.adapt.goals.push_back(*goal);
+    adapt.goals.push_back(*goal);
   }
-  options.run.adapt.by = parts.setting("by").value_or(options.run.adapt.by);
-  options.run.adapt.marking = parts.number("marking", 1);
+  adapt.by = parts.setting("by").value_or(adapt.by);
+  adapt.marking = parts.number("marking", 1);
   const std::string levels = parts.setting("levels").value_or("all");
   if (levels != "all" && levels != "last") refuse("--adapt", "levels=" + levels, "all, last");
-  options.run.adapt.goals_only = levels == "last";
+  adapt.goals_only = levels == "last";
 }
 
-void read_degree(const std::string& text, bool is_given, Options& options) {
+void read_degree(const std::string& text, bool is_given, RunSettings& run) {
   // On the default tooth degree 3 takes 1.5 of degree 2's time for 0.1 %, 0.75 of it for 0.03 %.
   constexpr double low_error = 0.001;
   int degree = 2;
   if (text == "auto") {
-    for (const AdaptGoal& goal : options.run.adapt.goals)
+    for (const AdaptGoal& goal : run.adapt.goals)
       if (goal.error.value_or(1) < low_error) degree = 3;
   } else if (text.size() == 1 && text[0] >= '1' && text[0] - '0' <= highest_degree) {
     degree = text[0] - '0';
@@ -270,28 +268,28 @@ void read_degree(const std::string& text, bool is_given, Options& options) {
     refuse("--degree", text, fmt::format("1 to {}, auto", highest_degree));
   }
   const std::string hybrid = hybrid_of_degree(degree);
-  if (options.run.adapt.by != "HYBRID" && options.run.adapt.by != hybrid)
-    refuse("--degree=" + text + " with --adapt=...,by", options.run.adapt.by,
+  if (run.adapt.by != "HYBRID" && run.adapt.by != hybrid)
+    refuse("--degree=" + text + " with --adapt=...,by", run.adapt.by,
            "one of both, or by=" + hybrid);
-  options.run.degree = degree;
-  options.run.adapt.by = hybrid;
-  if (!is_given) options.run.methods = hybrid;
+  run.degree = degree;
+  run.adapt.by = hybrid;
+  if (!is_given) run.methods = hybrid;
 }
 
-void read_fields(const std::string& text, Options& options) {
-  options.run.cases.fields = true;
+void read_fields(const std::string& text, CaseSettings& asked) {
+  asked.fields = true;
   for (const std::string& word : split_list(text))
     if (word == "mean")
-      options.run.cases.mean_fields = true;
+      asked.mean_fields = true;
     else if (word == "histories")
-      options.run.cases.histories = true;
+      asked.histories = true;
     else if (word != "true")
       refuse("--fields", word, "mean, histories, or no value");
 }
 
 // In the scaling study at most the number of processors: beyond it, efficiency means nothing.
-void read_threads(const std::string& text, bool is_given, Options& options) {
-  const bool scaling = options.run.study.points == Study::Points::threads;
+void read_threads(const std::string& text, bool is_given, RunSettings& run) {
+  const bool scaling = run.study.points == Study::Points::threads;
   const int processors = processors_at_hand();
   std::set<int> counts = {1};
   if (scaling && !is_given) {
@@ -309,11 +307,11 @@ void read_threads(const std::string& text, bool is_given, Options& options) {
                      : fmt::format("a whole number from 1 to {}; a list with --study=scaling",
                                    most_threads));
     counts.insert(static_cast<int>(*count));
-    options.run.cases.threads = static_cast<int>(*count);
+    run.cases.threads = static_cast<int>(*count);
   }
   if (!scaling) return;
-  options.run.thread_counts.assign(counts.begin(), counts.end());
-  options.run.cases.threads = options.run.thread_counts.back();
+  run.thread_counts.assign(counts.begin(), counts.end());
+  run.cases.threads = run.thread_counts.back();
 }
 
 void refuse_contradictions(const Options& options) {
@@ -364,7 +362,7 @@ Options parse_options(int argc, const char* const* argv) {
   for (const char* of_bodies : {"--mesh", "--scene", "--figure", "--adapt", "--fields"})
     if (!options.run.problems.empty() && given(of_bodies))
       throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
-  read_study(options.check.empty() ? texts.study : "check", options);
+  read_study(options.check.empty() ? texts.study : "check", options.run);
   if (!options.run.problems.empty() && given("--study") &&
       options.run.study.points != Study::Points::contact)
     throw UsageError("--study: not with --problem, which has no body (allowed: contact)");
@@ -380,23 +378,23 @@ Options parse_options(int argc, const char* const* argv) {
   }
   options.run.cases.stop = *stop_of(texts.stop);
   if (given("--contact")) options.run.cases.contact = contact_solver_of(texts.contact);
-  read_repetitions(texts.repetitions, options);
+  read_repetitions(texts.repetitions, options.limits);
   if (given("--retry-noisy")) {
     constexpr double most_noise = 0.05;  // as in machine_warnings()
     options.limits.retry_noisy = texts.noise == "true"
                                      ? most_noise
                                      : share_of("--retry-noisy", texts.noise, "as 5%, or no value");
   }
-  read_threads(texts.threads, given("--threads"), options);
-  read_timeout(texts.timeout, given("--timeout"), options);
-  if (given("--adapt")) read_adapt(texts.adapt, options);
-  if (given("--degree")) read_degree(texts.degree, given("--method"), options);
+  read_threads(texts.threads, given("--threads"), options.run);
+  read_timeout(texts.timeout, given("--timeout"), options.run.budgets_s, options.limits);
+  if (given("--adapt")) read_adapt(texts.adapt, options.run.adapt);
+  if (given("--degree")) read_degree(texts.degree, given("--method"), options.run);
   if (!texts.shard.empty()) {
     const std::optional<Shard> part = shard_of(texts.shard);
     if (!part) refuse("--shard", texts.shard, "k/n with 1 <= k <= n");
     options.run.shard = *part;
   }
-  if (given("--fields")) read_fields(texts.fields, options);
+  if (given("--fields")) read_fields(texts.fields, options.run.cases);
   refuse_contradictions(options);
   if (options.run.study.once) options.limits.repetitions = 1;
   return options;

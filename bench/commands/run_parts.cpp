@@ -28,10 +28,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<SceneFile> read_scenes(const Options& options) {
+std::vector<SceneFile> read_scenes(const RunSettings& run) {
   std::vector<SceneFile> scenes;
-  for (const fs::path& file :
-       options.run.scenes.empty() ? scenes_of(options.run.study) : options.run.scenes) {
+  for (const fs::path& file : run.scenes.empty() ? scenes_of(run.study) : run.scenes) {
     SceneFile added = read_scene_file(file);
     const Scene& scene = added.scene;
     for (const SceneFile& other : scenes)
@@ -173,7 +172,7 @@ std::string picture_line(const RunResult& result, const fs::path& out, bool has_
 
 std::vector<PosedScene> posed_scenes(const Options& options) {
   if (!options.run.problems.empty()) return posed_problems(options);
-  const std::vector<SceneFile> scenes = read_scenes(options);
+  const std::vector<SceneFile> scenes = read_scenes(options.run);
   const SignsOfLife signs("reading " + shortened(options.run.meshes));
   std::vector<PosedScene> posed;
   std::map<std::vector<std::string>, std::vector<MeshFile>> meshes;  // by the scenes' settings

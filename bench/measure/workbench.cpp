@@ -17,11 +17,6 @@ namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
 
-// The harness looks for the tolerance of the method.
-bool is_tightened(const Method& method, const CaseSettings& settings) {
-  return method.is_tightened() && settings.tightened;
-}
-
 }  // namespace
 
 Workbench::Workbench(PosedProblem problem, const CaseSettings& common, const Limits& limits,
@@ -75,9 +70,9 @@ Workbench::Examination Workbench::examine(const Case& asked, const std::filesyst
   }
   const AssembledBlocks& assembled = blocks(method);
   choice = choose(asked, assembled, record);
-  Run run = tighten(method, assembled, choice, record);
+  Run run = tighten(assembled, choice, record);
   Solution& solution = run.solution;
-  note_run(method, run, choice, record);
+  note_run(run, choice, record);
   if (solution.program) program_log = std::move(solution.program->log);
   if (judge_.is_answered(solution)) {
     verify_run(assembled, run);
@@ -112,7 +107,8 @@ Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& bl
   const Method& method = asked.method;
   Choice choice{method.solve, method.solve_contact, asked.settings};
   CaseSettings& settings = choice.settings;
-  if (is_tightened(method, settings))
+  settings.tightened = settings.tightened && method.is_tightened();
+  if (settings.tightened)
     settings.tolerance = settings.stop == Stop::paper
                              ? method.paper_tolerance
                              : std::max(tightest, method.first_tolerance * settings.target_error);
@@ -161,8 +157,8 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
   record.attempts.push_back(std::move(attempt));
 }
 
-Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& assembled,
-                                  Choice& choice, Record& record) {
+Workbench::Run Workbench::tighten(const AssembledBlocks& assembled, Choice& choice,
+                                  Record& record) {
   constexpr int most_attempts = 6;
   std::optional<Run> finished;  // the last answer, not accurate enough
   double finished_with = 0;
@@ -176,7 +172,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
       choice.settings.tolerance = finished_with;
       return std::move(*finished);
     }
-    if (!is_tightened(method, asked)) return run;
+    if (!asked.tightened) return run;
     note_attempt(choice, assembled, run, record);
     const double estimate = solution.error_estimate.value_or(0);
     double tolerance = *asked.tolerance;
@@ -300,11 +296,10 @@ void Workbench::write_fields(const Method& method, const Choice& choice,
       watched_s);
 }
 
-void Workbench::note_run(const Method& method, const Run& run, const Choice& choice,
-                         Record& record) {
+void Workbench::note_run(const Run& run, const Choice& choice, Record& record) {
   const Solution& solution = run.solution;
   note(solution, record);
-  if (is_tightened(method, choice.settings) && choice.settings.tolerance > 0)
+  if (choice.settings.tightened && choice.settings.tolerance > 0)
     record.tolerance = choice.settings.tolerance;
   if (record.tuning_cut && record.status != Status::ok)
     record.status_reason += "; the search was cut: see tuning_cut";

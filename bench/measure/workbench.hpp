@@ -51,14 +51,13 @@ class Workbench {
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
   Choice choose(const Case& asked, const AssembledBlocks& blocks, Record& record);
   // Returns the run that meets the target, or the last; sets the choice's tolerance to match.
-  Run tighten(const Method& method, const AssembledBlocks& assembled, Choice& choice,
-              Record& record);
+  Run tighten(const AssembledBlocks& assembled, Choice& choice, Record& record);
   void note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run, Record& record);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is done
   // Those of load steps by one more run, which is not measured.
   void write_fields(const Method& method, const Choice& choice, const AssembledBlocks& blocks,
                     const Run& run, Record& record, const std::filesystem::path& file);
-  static void note_run(const Method& method, const Run& run, const Choice& choice, Record& record);
+  static void note_run(const Run& run, const Choice& choice, Record& record);
   static void note_memory(const Run& run, Record& record);
   static TimedRun timed(const Run& run);
 

@@ -130,7 +130,7 @@ MeshFile read_or_convert(const std::filesystem::path& path, const std::filesyste
       std::cerr << fmt::format("note: {}: {}\n", path.string(), file.straightened.words());
     return file;
   } catch (const ForeignMeshError&) {
-    if (!converter_program() || is_of_catalogue(path)) throw;
+    if (is_of_catalogue(path) || !converter_program()) throw;
   }
   return converted(path, out, settings);
 }

@@ -49,10 +49,9 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
   for (const PosedScene& scene : scenes)
     for (const Method& method : methods)
       for (StudyPoint& point : points_of(method, body_of(scene.problem) == nullptr, run)) {
-        Case& added =
-            cases.emplace_back(Case{scene, method, std::move(point.settings), std::move(point.knob),
-                                    static_cast<int>(cases.size()) + 1, run.study.name,
-                                    std::string(name_of(run.study.points))});
+        Case& added = cases.emplace_back(
+            Case{scene, method, std::move(point.settings), std::move(point.knob),
+                 static_cast<int>(cases.size()) + 1, run.study.name, run.study.points});
         added.settings.contact = contact_solver(added);
       }
   return cases;
@@ -117,7 +116,7 @@ Record blank_record(const Case& planned, const Limits& limits) {
   record.contact_solver = settings.contact;
   record.case_number = number;
   record.study = study;
-  record.points = points;
+  record.points = name_of(points);
   record.knob = knob.name;
   record.knob_value = knob.value;
   if (body != nullptr) {

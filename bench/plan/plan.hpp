@@ -49,8 +49,9 @@ struct Case {
   Method method;
   CaseSettings settings = {};
   Knob knob = {};
-  int number = 0;                       // in the whole plan, from 1, also in a shard
-  std::string study = {}, points = {};  // its name, and Study::Points in words
+  int number = 0;          // in the whole plan, from 1, also in a shard
+  std::string study = {};  // its name
+  Study::Points points = Study::Points::one;
   CaseName name() const;
 };
 

@@ -89,8 +89,8 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
 
 // What records that stay refer to is not replaced.
 void write_for_records(const std::filesystem::path& file, const std::string& text,
-                       const Options& options) {
-  if (std::error_code error; (options.output.append || options.output.resume) &&
+                       const Output& output) {
+  if (std::error_code error; (output.append || output.resume) &&
                              std::filesystem::exists(file, error) &&
                              sha256_of_file(file) != sha256_hex(text))
     throw InputError(
@@ -107,7 +107,7 @@ Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
       fmt::format("{}+{}{}{}", mesh_name, options.run.adapt.marking == 1. ? "refined" : "adapt",
                   level.number, degree > 1 ? fmt::format("k{}", degree) : "");
   const std::filesystem::path file = folder / (level.mesh.name + ".msh");
-  write_for_records(file, msh_text(level.mesh), options);
+  write_for_records(file, msh_text(level.mesh), options.output);
   return {{"file", file.string()},
           {"number", level.number},
           {"unknowns", level.unknowns},
@@ -152,12 +152,12 @@ std::string obituary(const ChildEnd& end) {
 }
 
 PosedScene posed_level(const Json& said, const Scene& scene, const std::string& definition,
-                       const PosedScene& start, const Options& options) {
+                       const PosedScene& start, const std::filesystem::path& out) {
   const MeshFile file = read_mesh_file(said.at("file").get<std::string>());
   const double time_s = said.at("time_s");
   return {.scene_name = start.scene_name,
           .scene_group = start.scene_group,
-          .mesh_file = recorded_path(file.path, options.output.folder),
+          .mesh_file = recorded_path(file.path, out),
           .mesh_sha256 = file.sha256,
           .scene_definition = definition,
           .problem = std::make_shared<const Problem>(pose(scene, file.mesh)),
@@ -179,32 +179,31 @@ void print(const Json& said, const std::string& name) {
 
 }  // namespace
 
-PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
+PosedScene refined_scene(const PosedScene& level_0, const std::filesystem::path& out) {
   PosedScene refined = level_0;
   refined.adapted.reset();
   Mesh mesh = uniformly_refined(level_0.body()->mesh);
   mesh.name = mesh.name.substr(0, mesh.name.rfind('+')) + "+refine1";
-  const std::filesystem::path file =
-      options.output.folder / "meshes" / level_0.scene_name / (mesh.name + ".msh");
+  const std::filesystem::path file = out / "meshes" / level_0.scene_name / (mesh.name + ".msh");
   write_file_atomically(file, msh_text(mesh));
-  refined.mesh_file = recorded_path(file, options.output.folder);
+  refined.mesh_file = recorded_path(file, out);
   refined.mesh_sha256 = sha256_of_file(file);
   Scene scene = scene_of(level_0.scene_definition, mesh.name);
   refined.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh)));
   return refined;
 }
 
-void check_adapting_method(const Options& options) { adapting_method(options.run.adapt.by); }
+void check_adapting_method(const std::string& by) { adapting_method(by); }
 
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
-  check_adapting_method(options);
+  check_adapting_method(options.run.adapt.by);
   const Mesh& mesh = start.body()->mesh;
   const std::string name = mesh.name + "/" + start.scene_name;
   const std::string definition = definition_on(mesh, start.scene_definition, name);
   const std::filesystem::path folder = options.output.folder / "meshes" / start.scene_name;
   const std::filesystem::path scene_file = folder / mesh.name / (start.scene_name + ".json");
   make_folder(scene_file.parent_path());
-  write_for_records(scene_file, definition + "\n", options);
+  write_for_records(scene_file, definition + "\n", options.output);
   const Scene scene = scene_of(definition, scene_file.string());
 
   AdaptedScenes result;
@@ -244,7 +243,7 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
     std::erase_if(levels, [](const Json& said) { return !said.at("reaches").get<bool>(); });
   }
   for (const Json& said : levels)
-    result.levels.push_back(posed_level(said, scene, definition, start, options));
+    result.levels.push_back(posed_level(said, scene, definition, start, options.output.folder));
   if (!result.why_not_reached.empty())
     result.why_not_reached =
         fmt::format("--adapt={}: not reached for {}: {}", text_of(options.run.adapt.goals), name,

@@ -12,15 +12,15 @@
 namespace airybench {
 
 struct AdaptedScenes {
-  std::vector<PosedScene> levels;  // all, or only those that reach a goal (options.goals_only)
+  std::vector<PosedScene> levels;  // all, or only those that reach a goal (Adaptation::goals_only)
   std::string why_not_reached;     // one line; empty if all goals are reached
 };
 
-void check_adapting_method(const Options& options);  // throws UsageError (options.adapt_by)
+void check_adapting_method(const std::string& by);  // throws UsageError
 // Prints progress to standard error. Throws UsageError, FileError, Interrupted.
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 
 // Refines level 0 uniformly once; writes the mesh next to it, MESH+refine1.msh.
-PosedScene refined_scene(const PosedScene& level_0, const Options& options);
+PosedScene refined_scene(const PosedScene& level_0, const std::filesystem::path& out);
 
 }  // namespace airybench

@@ -73,16 +73,16 @@ void initialize_benchmark(bool interleave) {
 class Listener : public benchmark::BenchmarkReporter {
  public:
   using Ended = std::function<void(const std::string& name)>;
-  explicit Listener(Ended ended) : ended_(std::move(ended)) { SetErrorStream(&complaints); }
+  explicit Listener(Ended ended) : ended_(std::move(ended)) { SetErrorStream(&unread_); }
   bool ReportContext(const Context&) override { return true; }
   void ReportRuns(const std::vector<Run>& runs) override {
     if (!runs.empty() && runs.front().run_type == Run::RT_Iteration)
       ended_(runs.front().run_name.function_name);
   }
-  std::stringstream complaints;
 
  private:
   Ended ended_;
+  std::ostringstream unread_;
 };
 
 void run_benchmarks(Listener::Ended ended) {
@@ -115,7 +115,7 @@ class SceneRunner {
                                    [this, k](benchmark::State& state) { measure(k, state); })
           ->UseManualTime()
           ->Iterations(1)
-          ->Repetitions(most_repetitions(limits_))
+          ->Repetitions(max_repetitions(limits_))
           ->Unit(benchmark::kMillisecond);
     run_benchmarks([this](const std::string& name) { finish(index_of(name)); });
     if (limits_.interleave) write_finished();
@@ -257,18 +257,17 @@ class SceneRunner {
 
 }  // namespace
 
-int least_repetitions(const Limits& limits) {
+int min_repetitions(const Limits& limits) {
   return limits.precision ? std::max(limits.repetitions, fewest_for_median_interval)
                           : limits.repetitions;
 }
 
-int most_repetitions(const Limits& limits) {
+int max_repetitions(const Limits& limits) {
   return limits.precision ? limits.max_repetitions : limits.repetitions;
 }
 
 RunLimits limits_of(const Limits& limits, const std::vector<Case>& plan) {
-  return {least_repetitions(limits), limits.timeout_s, limits.long_case_s,
-          limits.memory_limit_bytes,
+  return {min_repetitions(limits), limits.timeout_s, limits.long_case_s, limits.memory_limit_bytes,
           std::ranges::any_of(plan, [](const Case& c) { return c.settings.timed_once; })};
 }
 
@@ -277,9 +276,9 @@ bool is_repeated(const Record& record, const Limits& limits) {
   if (samples.empty()) return true;
   const double so_far_s = std::accumulate(samples.begin(), samples.end(), 0.0);
   if (record.measured_once || so_far_s >= limits.long_case_s ||
-      std::ssize(samples) >= most_repetitions(limits))
+      std::ssize(samples) >= max_repetitions(limits))
     return false;
-  if (std::ssize(samples) < least_repetitions(limits)) return true;
+  if (std::ssize(samples) < min_repetitions(limits)) return true;
   return *median_uncertainty(samples) > *limits.precision;
 }
 

@@ -50,8 +50,8 @@ RunResult run_cases(const std::vector<Case>& plan, const Limits& limits, const O
 // expression; a leading '-' inverts it. Throws UsageError if the expression is invalid.
 std::vector<Case> matching(std::vector<Case> plan, const std::string& filter);
 
-int least_repetitions(const Limits& limits);
-int most_repetitions(const Limits& limits);
+int min_repetitions(const Limits& limits);
+int max_repetitions(const Limits& limits);
 // For the forecast of the cases.
 RunLimits limits_of(const Limits& limits, const std::vector<Case>& plan);
 // False after the most repetitions or long_case_s, and after the least if the precision is reached.

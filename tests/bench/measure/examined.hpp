@@ -32,7 +32,7 @@ class CaseBench : public Workbench {
             .method = method,
             .settings = common_settings(run_),
             .study = run_.study.name,
-            .points = std::string(name_of(run_.study.points))};
+            .points = run_.study.points};
   }
   PosedScene scene_;
   RunSettings run_;

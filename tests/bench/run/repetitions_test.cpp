@@ -24,7 +24,7 @@ Limits precise(double share) {
 
 TEST(Repetitions, AreThoseAskedForWithoutPrecision) {
   const Limits limits;
-  EXPECT_EQ(most_repetitions(limits), 5);
+  EXPECT_EQ(max_repetitions(limits), 5);
   EXPECT_TRUE(is_repeated(timed({}), limits));
   EXPECT_TRUE(is_repeated(timed({1, 1, 1, 1}), limits));
   EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1}), limits));
@@ -32,7 +32,7 @@ TEST(Repetitions, AreThoseAskedForWithoutPrecision) {
 
 TEST(Repetitions, GoOnUntilTheMedianIsPreciseEnough) {
   const Limits limits = precise(0.02);
-  EXPECT_EQ(least_repetitions(limits), 6);
+  EXPECT_EQ(min_repetitions(limits), 6);
   EXPECT_TRUE(is_repeated(timed({1, 1, 1, 1, 1}), limits));      // no interval
   EXPECT_FALSE(is_repeated(timed({1, 1, 1, 1, 1, 1}), limits));  // ± 0
   EXPECT_FALSE(is_repeated(timed({0.98, 1, 1, 1, 1, 1.02}), precise(0.0201)));
@@ -47,7 +47,7 @@ TEST(Repetitions, HaveALeastNumberAndAnEndOnANoisyMachine) {
   EXPECT_TRUE(is_repeated(timed(std::vector<double>(7, 1.0)), limits));
   EXPECT_FALSE(is_repeated(timed(std::vector<double>(8, 1.0)), limits));
   limits.max_repetitions = 10;
-  EXPECT_EQ(most_repetitions(limits), 10);
+  EXPECT_EQ(max_repetitions(limits), 10);
   EXPECT_TRUE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1, 2, 1}), limits));
   EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1, 2, 1, 2}), limits));
   limits.long_case_s = 10;
