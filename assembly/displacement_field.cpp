@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "assembly/elements/curved_side.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/elements/small_cholesky.hpp"
+#include "assembly/traction_forces.hpp"
 
 namespace airybench {
 namespace {
@@ -271,11 +273,54 @@ double work_of_loads(const Problem& problem, const DisplacementField& u) {
   return nodal_loads(problem, displacement_degree(problem, u)).cwiseProduct(u).sum();
 }
 
-double work_on_free_motion(const Problem& problem, const FreeMotions& free) {
+namespace {
+
+// Of the traction on an edge, with a motion that is linear along it.
+double work_of_traction(const Problem& problem, int row, int degree, const FreeMotions& free) {
+  const auto [start, end] = problem.mesh.boundary[row].vertices;
+  const Eigen::Vector2d &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+  const Eigen::Matrix2Xd forces = traction_forces<double>(problem, row, degree);
+  double work = 0;
+  for (int j = 0; j <= degree; ++j)
+    work += forces.col(j).dot(
+        free.at(((degree + 1 - j) * a + (j + 1) * b) / (degree + 2), start));  // its moment
+  return work;
+}
+
+// What the loads do on curved sides more than on their chords.
+double work_beyond_chords(const Problem& problem, const FreeMotions& free, int degree) {
+  double work = 0;
+  for (const auto& [triangle, rows] : problem.round)
+    for (int k = 0; k < 3; ++k) {
+      const int row = rows[k];
+      if (row == Problem::no_row) continue;
+      if (problem.loads.traction_MPa)
+        work +=
+            work_of_traction(problem, row, degree, free) - work_of_traction(problem, row, 1, free);
+      if (!problem.loads.has_body_force()) continue;
+      const TriangleVertices v = problem.vertices_of(triangle);
+      Eigen::Matrix<double, 2, 3> corners;  // of the third; ∫ of linear functions from them
+      corners << v.col(k), v.col((k + 1) % 3), v.rowwise().mean();
+      const Eigen::MatrixXd root = CurvedSide<double>(problem.mesh.boundary[row].curve.points_mm, 1)
+                                       .mass_root(corners.col(2));
+      const Eigen::Vector3d weight = root.transpose() * root.rowwise().sum();
+      for (int i = 0; i < 3; ++i)
+        work += (weight(i) - problem.area_mm2(triangle) / 9) *
+                problem.loads.body_force_N_per_mm3.dot(
+                    free.at(corners.col(i), problem.mesh.boundary[row].vertices[0]));
+    }
+  return work;
+}
+
+}  // namespace
+
+double work_on_free_motion(const Problem& problem, const FreeMotions& free, int degree) {
   if (free.amounts_mm.size() == 0) return 0;
-  return work_of_loads(problem,
-                       with_motion(problem, DisplacementField::Zero(2, displacement_nodes(problem)),
-                                   [&](const auto& x, int vertex) { return free.at(x, vertex); }));
+  const DisplacementField motion =
+      with_motion(problem, DisplacementField::Zero(2, displacement_nodes(problem)),
+                  [&](const auto& x, int vertex) { return free.at(x, vertex); });
+  return work_of_loads(problem, motion) +
+         (degree > 1 ? work_beyond_chords(problem, free, degree) : 0);
 }
 
 #define AIRYBENCH_INSTANTIATE(k)                                                  \

@@ -85,7 +85,8 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem, int degre
 
 // ∫ b·u + ∫_{Γ_F} f·u, N mm.
 double work_of_loads(const Problem& problem, const DisplacementField& u);
-// The same of free pieces' own motions, of these amounts, zero where there are none.
-double work_on_free_motion(const Problem& problem, const FreeMotions& free);
+// The same of free pieces' own motions, of these amounts, zero where there are none. degree: that
+// of the stresses, which may follow curved sides (Problem::round).
+double work_on_free_motion(const Problem& problem, const FreeMotions& free, int degree = 1);
 
 }  // namespace airybench

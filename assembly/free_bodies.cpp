@@ -11,7 +11,7 @@ void add_free_bodies(
   if (!problem.free.are_unknown()) return;
   const auto& [motions, pins, piece_of_vertex, amounts] = problem.free;
   FreeBodies& free = contact.free;
-  free.rigid = std::make_shared<const RigidContact>(rigid_contact(problem));
+  free.rigid = std::make_shared<const RigidContact>(rigid_contact(problem, contact.per_edge - 1));
   free.motions = Eigen::MatrixXd::Zero(contact.size(), std::ssize(motions));
   for (Eigen::Index m = 0; m < free.motions.cols(); ++m) {
     const auto& [piece, of_one_mm, area_mm2] = motions[m];

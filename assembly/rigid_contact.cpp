@@ -19,13 +19,13 @@ constexpr double alike = 1e-6;           // velocities, relatively
 constexpr double load_rounding = 1e-11;  // of the force that loads could make
 
 // l_m = ∫ b·N_m + ∫_{Γ_F} f·N_m, N.
-Eigen::VectorXd loads_on_motions(const Problem& problem) {
+Eigen::VectorXd loads_on_motions(const Problem& problem, int degree) {
   const auto count = static_cast<Eigen::Index>(problem.free.motions.size());
   Eigen::VectorXd loads(count);
   FreeMotions moved = problem.free;
   for (Eigen::Index m = 0; m < count; ++m) {
     moved.amounts_mm = Eigen::VectorXd::Unit(count, m);
-    loads(m) = work_on_free_motion(problem, moved);
+    loads(m) = work_on_free_motion(problem, moved, degree);
   }
   return loads;
 }
@@ -116,14 +116,14 @@ Eigen::VectorXd RigidContact::masses() const {
   return areas / areas.maxCoeff();
 }
 
-RigidContact rigid_contact(const Problem& problem) {
+RigidContact rigid_contact(const Problem& problem, int degree) {
   constexpr double straight = 1e-6;
   RigidContact contact;
   contact.motions = problem.free.motions;
   for (const FreeMotion& motion : contact.motions)
     contact.bodies.push_back(
         name_of_piece(problem.mesh, problem.free.piece_of_vertex, motion.piece));
-  contact.loads_N = loads_on_motions(problem);
+  contact.loads_N = loads_on_motions(problem, degree);
   contact.rounding_N = load_rounding * load_scale(problem).force_N;
   std::vector<EndRow> rows;
   std::vector<char> seen(problem.mesh.boundary.size());  // edges, or the ones opposite

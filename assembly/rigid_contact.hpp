@@ -38,8 +38,8 @@ struct RigidContact {
   Eigen::VectorXd masses() const;
 };
 
-// For problems with free motions.
-RigidContact rigid_contact(const Problem& problem);
+// For problems with free motions. degree: of the stresses (work_on_free_motion()).
+RigidContact rigid_contact(const Problem& problem, int degree = 1);
 
 // Bases, columns, in amounts of the motions, orthonormal in M: of those that no contact resists, as
 // along faces without friction, and of those across. Resistance to 1e-8 of a motion is none.

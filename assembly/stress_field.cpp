@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "assembly/elements/curved_side.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/elements/stress_degrees.hpp"
 #include "support/wide.hpp"
@@ -86,13 +87,38 @@ double product(const double* sigma, const double* tau, double area_mm2, const Ei
   return area_mm2 / 3 * sum;
 }
 
+int degree_of(const StressCoefficients& stress) {
+  int degree = 1;
+  while (3 * bernstein_count(degree) < stress.cols()) ++degree;
+  return degree;
+}
+
+double curved_product(const TriangleVertices& v, const Problem::Curves& curves,
+                      const StressCoefficients& sigma, const StressCoefficients& tau,
+                      const Eigen::Matrix3d& C) {
+  const int degree = degree_of(sigma);
+  const Eigen::Index n = bernstein_count(degree);
+  double sum = 0;
+  for (int t = 0; t < 3; ++t) {
+    const std::vector<Eigen::Vector2d> chord = {v.col(t), v.col((t + 1) % 3)};
+    const CurvedSide<double> side(curves[t].empty() ? std::span(chord) : curves[t], degree);
+    const Eigen::MatrixXd root = side.mass_root(v.rowwise().mean()).transpose();
+    sum +=
+        (C * sigma.middleCols(n * t, n) * root).cwiseProduct(tau.middleCols(n * t, n) * root).sum();
+  }
+  return sum;
+}
+
 }  // namespace
 
-double stress_product(const Problem& problem, int triangle, const StressField& sigma,
-                      const StressField& tau) {
-  const auto t = static_cast<std::size_t>(triangle);
-  return with_degree(sigma.degree(), [&](auto k) {
-    return product<k>(sigma[t].data(), tau[t].data(), problem.area_mm2(triangle),
+double stress_product(const Problem& problem, int triangle, const StressCoefficients& sigma,
+                      const StressCoefficients& tau) {
+  const int degree = degree_of(sigma);
+  if (const auto curves = problem.curves_of(triangle, degree))
+    return curved_product(problem.vertices_of(triangle), *curves, sigma, tau,
+                          problem.compliance_of(triangle));
+  return with_degree(degree, [&](auto k) {
+    return product<k>(sigma.data(), tau.data(), problem.area_mm2(triangle),
                       problem.compliance_of(triangle));
   });
 }
@@ -111,16 +137,25 @@ double stress_distance(const Problem& problem, const StressField& stress,
   return std::sqrt(stress_norm_squared(problem, difference));
 }
 
-ForcesOnEdge element_edge_forces(const TriangleVertices& v,
-                                 const Eigen::Ref<const Eigen::Matrix3Xd>& stress, int k) {
-  int degree = 1;
-  while (3 * bernstein_count(degree) < stress.cols()) ++degree;
+ForcesOnEdge element_edge_forces(const TriangleVertices& v, const StressCoefficients& stress,
+                                 int k) {
+  const int degree = degree_of(stress);
   const EdgeFrame frame = edge_frame(v.col(k), v.col((k + 1) % 3));
   ForcesOnEdge forces(2, degree + 1);
   for (int j = 0; j <= degree; ++j)
     forces.col(j) = frame.length_mm / (degree + 1) *
                     traction(stress.col(bernstein_count(degree) * k + j), frame.normal);
   return forces;
+}
+
+ForcesOnEdge curved_edge_forces(const TriangleVertices& v, const StressCoefficients& stress, int k,
+                                std::span<const Eigen::Vector2d> curve) {
+  const int degree = degree_of(stress);
+  const Eigen::Index n = bernstein_count(degree);
+  const Eigen::VectorXd forces =
+      CurvedSide<double>(curve, degree).stress_forces(v.rowwise().mean()) *
+      stress.middleCols(n * k, n).reshaped();
+  return forces.reshaped(2, degree + 1);
 }
 
 template ElementStressIn<double> particular_element_stress(const Problem&, int);

@@ -73,9 +73,16 @@ ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
                                     std::type_identity_t<Scalar> area_mm2,
                                     const Eigen::Matrix3<Data<Scalar>>& compliance);
 
-// ∫ σ : C : τ over a triangle, 1 mm thick, N mm, of fields of one degree.
-double stress_product(const Problem& problem, int triangle, const StressField& sigma,
-                      const StressField& tau);
+// ∫ σ : C : τ over a triangle, 1 mm thick, N mm, of fields of one degree, or of their coefficients
+// there. Where stresses of the degree follow curves (Problem::round), up to these.
+using StressCoefficients = Eigen::Ref<const Eigen::Matrix3Xd>;
+double stress_product(const Problem& problem, int triangle, const StressCoefficients& sigma,
+                      const StressCoefficients& tau);
+inline double stress_product(const Problem& problem, int triangle, const StressField& sigma,
+                             const StressField& tau) {
+  const auto t = static_cast<std::size_t>(triangle);
+  return stress_product(problem, triangle, sigma[t], tau[t]);
+}
 
 // ∫ σ : compliance : σ over the body, 1 mm thick, N mm: twice the strain energy.
 double stress_norm_squared(const Problem& problem, const StressField& stress);
@@ -86,7 +93,10 @@ double stress_distance(const Problem& problem, const StressField& stress, const 
 // Forces on edge k for the outward normal, N, of a triangle of a StressField. Columns: the control
 // values' forces F_j (equilibrium_element.hpp) in the element's walk; rows: x, y.
 using ForcesOnEdge = EdgeMoments;
-ForcesOnEdge element_edge_forces(const TriangleVertices& v,
-                                 const Eigen::Ref<const Eigen::Matrix3Xd>& stress, int k);
+ForcesOnEdge element_edge_forces(const TriangleVertices& v, const StressCoefficients& stress,
+                                 int k);
+// The same on a curve of that edge (curved_side.hpp).
+ForcesOnEdge curved_edge_forces(const TriangleVertices& v, const StressCoefficients& stress, int k,
+                                std::span<const Eigen::Vector2d> curve);
 
 }  // namespace airybench

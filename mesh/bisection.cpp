@@ -12,11 +12,12 @@ namespace {
 // A mesh that is being bisected, with the neighbours of its triangles.
 class Bisection {
  public:
-  explicit Bisection(const Mesh& mesh)
-      : mesh_(mesh),
-        across_(mesh.triangles.size()),
-        origin_(mesh.triangles.size()),
-        cuts_(mesh.triangles.size(), 0) {
+  explicit Bisection(Mesh mesh)
+      : mesh_(std::move(mesh)),
+        across_(mesh_.triangles.size()),
+        origin_(mesh_.triangles.size()),
+        cuts_(mesh_.triangles.size(), 0),
+        least_mm_(shortest_divisible_edge(mesh_)) {
     std::iota(origin_.begin(), origin_.end(), 0);
     const MeshEdges edges = number_edges(mesh_);
     std::vector<int> first(static_cast<std::size_t>(edges.count()), none);
@@ -40,6 +41,19 @@ class Bisection {
   }
   int triangles() const { return static_cast<int>(mesh_.triangles.size()); }
   double longest_edge(int t) const { return std::sqrt(length_squared(t, longest_side(t))); }
+
+  // Cuts curved sides of t until it and its parts fit them. Nothing lies across them, so nothing
+  // else changes.
+  void fit(int t) {
+    for (int k = 0; k < 3; ++k) {
+      if (across_[t][k] >= 0) continue;
+      const BoundaryEdge& edge = mesh_.boundary[beyond(across_[t][k])];
+      const Eigen::Vector2d& c = mesh_.vertices[mesh_.triangles[t][(k + 2) % 3]];
+      if (edge.curve.is_straight() || fits(edge.curve, c) || !can_be_cut(edge, c)) continue;
+      cut_edge(t, k);
+      return;
+    }
+  }
 
   // Cuts t from the middle of its longest edge, and before it what must be cut so that the edge is
   // its neighbour's longest one too. The longest edges along the path grow, so it never returns to
@@ -97,18 +111,21 @@ class Bisection {
   void cut_edge(int t, int k) {
     const int a = mesh_.triangles[t][k], b = mesh_.triangles[t][(k + 1) % 3];
     const int middle = static_cast<int>(mesh_.vertices.size());
-    mesh_.vertices.emplace_back((mesh_.vertices[a] + mesh_.vertices[b]) / 2);
     const int other = across_[t][k];
     if (other < 0) {
       const int row = beyond(other), second_row = static_cast<int>(mesh_.boundary.size());
-      BoundaryEdge second = mesh_.boundary[row];
-      mesh_.boundary[row].vertices[1] = second.vertices[0] = middle;
-      mesh_.boundary.push_back(second);
+      BoundaryEdge& edge = mesh_.boundary[row];
+      if (!can_be_cut(edge, mesh_.vertices[mesh_.triangles[t][(k + 2) % 3]])) edge.curve = {};
+      mesh_.vertices.push_back(point_on(mesh_, edge, 0.5));
+      mesh_.boundary.push_back(cut_at(edge, middle, 0.5));
       const int born = halve(t, k, middle);
       across_[t][0] = beyond(row);
       across_[born][0] = beyond(second_row);
+      fit(t);
+      fit(born);
       return;
     }
+    mesh_.vertices.emplace_back((mesh_.vertices[a] + mesh_.vertices[b]) / 2);
     const int l = side_towards(other, a);
     const int lower = std::min(t, other), upper = std::max(t, other);
     const int of_lower = halve(lower, lower == t ? k : l, middle),
@@ -118,6 +135,19 @@ class Bisection {
     across_[of_upper][0] = lower;
     across_[upper][0] = of_lower;
     across_[of_lower][0] = upper;
+    for (const int part : {lower, upper, of_lower, of_upper}) fit(part);
+  }
+
+  // Whether the middle of an edge's curve makes two triangles with the vertex across.
+  bool can_be_cut(const BoundaryEdge& edge, const Eigen::Vector2d& c) const {
+    constexpr double least = 0.1;  // of the halves on the chord
+    if (edge.curve.is_straight()) return true;
+    const Eigen::Vector2d &a = mesh_.vertices[edge.vertices[0]],
+                          &b = mesh_.vertices[edge.vertices[1]];
+    const Eigen::Vector2d m = edge.curve.at(0.5);
+    const double half = cross_area(a, b, c) / 2;
+    return cross_area(a, m, c) > least * half && cross_area(m, b, c) > least * half &&
+           (b - a).norm() > least_mm_;
   }
 
   // abc with side k = ab becomes a m c, and m b c behind all others, whose number is returned. Side
@@ -141,6 +171,7 @@ class Bisection {
   Mesh mesh_;
   std::vector<std::array<int, 3>> across_;  // per triangle and side: the neighbour, or beyond(row)
   std::vector<int> origin_, cuts_;          // per triangle: of its TrianglePart
+  double least_mm_;
   std::vector<int> path_;
   std::int64_t visits_ = 0;
 };
@@ -173,6 +204,14 @@ BisectedMesh bisected(const Mesh& mesh, const std::function<bool(const TriangleP
 
 BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& cuts) {
   return bisected(mesh, [&](const TrianglePart& part) { return part.cuts < cuts[part.triangle]; });
+}
+
+Mesh with_fitting_curves(Mesh mesh) {
+  const auto is_curved = [](const BoundaryEdge& edge) { return !edge.curve.is_straight(); };
+  if (std::ranges::none_of(mesh.boundary, is_curved)) return mesh;
+  Bisection bisection(std::move(mesh));
+  for (int t = 0; t < bisection.triangles(); ++t) bisection.fit(t);
+  return bisection.take();
 }
 
 Mesh bisected_at_vertex(const Mesh& mesh, int v, double length_mm) {

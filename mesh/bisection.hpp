@@ -3,9 +3,13 @@
 // A triangle is cut from the middle of its longest edge. So that the mesh stays conforming, the
 // neighbour across that edge is cut first until the edge is its longest one too (Rivara, Int. J.
 // Numer. Meth. Engng 20, 1984; walked along the longest-edge propagation path, ibid. 40, 1997).
-// No angle becomes smaller than half the smallest one before, however often this is repeated
-// (Rosenberg & Stenger, SIAM J. Numer. Anal. 12, 1975). Edges of equal length are ordered by their
-// vertices' numbers, so every path ends, and the same marks give the same mesh.
+// Where edges are straight, no angle becomes smaller than half the smallest one before, however
+// often this is repeated (Rosenberg & Stenger, SIAM J. Numer. Anal. 12, 1975). Edges of equal
+// length are ordered by their vertices' numbers, so every path ends, and the same marks give the
+// same mesh.
+//
+// A curved boundary edge is cut at the middle of its curve. Where a triangle becomes too thin for
+// its curved edge (fits()), that edge is cut, too: half of it turns half as much.
 //
 // New vertices are put behind the old ones, new triangles and boundary edges too; roles, groups and
 // bodies are inherited. Time and memory are linear in the triangles of the result.
@@ -42,6 +46,10 @@ BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& cuts);
 
 // Bisects triangles at vertex v until no edge there is longer than length_mm.
 Mesh bisected_at_vertex(const Mesh& mesh, int v, double length_mm);
+
+// Cuts curved edges until their triangles fit them. An edge whose curve reaches the vertex across
+// stays as it is; it is cut on its chord, if it is cut.
+Mesh with_fitting_curves(Mesh mesh);
 
 // The shortest edge, in mm, that bisection may halve in a mesh of these coordinates.
 double shortest_divisible_edge(const Mesh& mesh);

@@ -127,6 +127,9 @@ std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides
         edge.group >= static_cast<int>(mesh.boundary_groups.size()))
       fail(mesh, name + ": group " + std::to_string(edge.group + 1) + " does not exist (1.." +
                      std::to_string(mesh.boundary_groups.size()) + ")");
+    if (!edge.curve.is_straight() && (edge.curve.points_mm.front() != mesh.vertices[a] ||
+                                      edge.curve.points_mm.back() != mesh.vertices[b]))
+      fail(mesh, name + ": its curve does not start and end at its vertices");
     is_held |= edge.role != BoundaryRole::force;
   }
   for (int v = 0; v < n; ++v)
@@ -199,6 +202,20 @@ std::string boundary_label(const Mesh& mesh, const BoundaryEdge& edge) {
   if (edge.group != BoundaryEdge::no_group)
     label += ":" + mesh.boundary_groups[static_cast<std::size_t>(edge.group)];
   return label;
+}
+
+Eigen::Vector2d point_on(const Mesh& mesh, const BoundaryEdge& edge, double t) {
+  if (!edge.curve.is_straight()) return edge.curve.at(t);
+  return (1 - t) * mesh.vertices[edge.vertices[0]] + t * mesh.vertices[edge.vertices[1]];
+}
+
+BoundaryEdge cut_at(BoundaryEdge& edge, int vertex, double t) {
+  BoundaryEdge second = edge;
+  edge.vertices[1] = second.vertices[0] = vertex;
+  if (edge.curve.is_straight()) return second;
+  second.curve = edge.curve.between(t, 1);
+  edge.curve = edge.curve.between(0, t);
+  return second;
 }
 
 int boundary_group(Mesh& mesh, std::string_view name) {

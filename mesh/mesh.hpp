@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/edge_curve.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
@@ -28,6 +29,8 @@ struct BoundaryEdge {
   std::array<int, 2> vertices;  // start, end; the body lies on the left (counter-clockwise walk)
   BoundaryRole role;
   int group = no_group;  // row of Mesh::boundary_groups
+  // What the edge stands for: a curve from its start to its end, which refinement follows.
+  EdgeCurve curve = {};
 };
 
 struct Mesh {
@@ -38,11 +41,17 @@ struct Mesh {
   std::vector<std::string> body_names;        // at least one
   std::vector<BoundaryEdge> boundary;         // every boundary edge once, any order
   std::vector<std::string> boundary_groups;   // names; "top" of edges that are "force:top"
+  bool is_polygon = false;                    // no edge stands for a curve, even if it looks so
 };
 
 // The group of edges that an edge belongs to: its role, "force", or its role and the name of its
 // group, "force:top". Edges of one name and two roles are two groups.
 std::string boundary_label(const Mesh& mesh, const BoundaryEdge& edge);
+
+// Where a boundary edge is cut, at a parameter of its curve or chord, and how: it keeps the first
+// part, the second is returned. vertex: at that place.
+Eigen::Vector2d point_on(const Mesh& mesh, const BoundaryEdge& edge, double t);
+BoundaryEdge cut_at(BoundaryEdge& edge, int vertex, double t);
 
 // The row of a name in Mesh::boundary_groups, which is added if it is new; no_group for no name.
 int boundary_group(Mesh& mesh, std::string_view name);
@@ -78,7 +87,8 @@ inline constexpr double flat_triangle_tolerance = 1e-13;
 // more than two triangles; a boundary edge that is not on the boundary, given twice, walked against
 // its triangle, or of a group that does not exist; a boundary edge without a role; neither
 // displacement nor contact edges; within a piece a boundary that touches or crosses itself or,
-// around a hole, another one; triangles that overlap. Different pieces may touch and overlap.
+// around a hole, another one; triangles that overlap; a curve that does not start and end at its
+// edge's vertices. Different pieces may touch and overlap.
 void validate(const Mesh& mesh);
 
 // Parts that no triangle joins, numbered in the order of their lowest vertices.

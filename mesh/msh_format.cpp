@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "mesh/mend.hpp"
 #include "support/called_as.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
@@ -16,7 +17,9 @@
 namespace airybench {
 namespace {
 
-constexpr int gmsh_line = 1, gmsh_triangle = 2;
+constexpr int gmsh_triangle = 2;
+constexpr std::array gmsh_line_of_degree = {0, 1, 8, 26, 27, 28, 62, 63};
+static_assert(gmsh_line_of_degree.size() == EdgeCurve::max_degree + 1);
 
 // Reads a text file line by line and field by field; every complaint names file and line.
 class LineReader {
@@ -143,6 +146,25 @@ PhysicalGroups read_physical_names(LineReader& reader, Mesh& mesh) {
   return groups;
 }
 
+// Nodes inside curved lines are no vertices of the mesh, unless a triangle has them.
+void drop_nodes(const std::vector<bool>& is_inside_line, Mesh& mesh) {
+  std::vector<bool> is_kept(mesh.vertices.size());
+  for (std::size_t v = 0; v < is_kept.size(); ++v) is_kept[v] = !is_inside_line[v];
+  for (const auto& triangle : mesh.triangles)
+    for (const int v : triangle) is_kept[v] = true;
+  std::vector<int> number(mesh.vertices.size());
+  int kept = 0;
+  for (std::size_t v = 0; v < is_kept.size(); ++v) {
+    number[v] = kept;
+    if (is_kept[v]) mesh.vertices[kept++] = mesh.vertices[v];
+  }
+  mesh.vertices.resize(kept);
+  for (auto& triangle : mesh.triangles)
+    for (int& v : triangle) v = number[v];
+  for (BoundaryEdge& edge : mesh.boundary)
+    for (int& v : edge.vertices) v = number[v];
+}
+
 // Returns the vertex number of every Gmsh node number.
 std::map<long, int> read_nodes(LineReader& reader, Mesh& mesh) {
   std::map<long, int> vertex_of_node;
@@ -174,14 +196,17 @@ std::map<long, int> read_nodes(LineReader& reader, Mesh& mesh) {
 void read_elements(LineReader& reader, const PhysicalGroups& groups,
                    const std::map<long, int>& vertex_of_node, Mesh& mesh) {
   const int count = read_count(reader, "the number of elements");
+  std::vector<bool> is_inside_line(mesh.vertices.size(), false);
   for (int i = 0; i < count; ++i) {
     reader.next_line("an element (" + std::to_string(count) + " announced, " + std::to_string(i) +
                      " found)");
     const std::string name = "element " + std::to_string(reader.field<long>("an element's number"));
     const int type = reader.field<int>(name + ": a type");
-    if (type != gmsh_line && type != gmsh_triangle)
+    const auto line = std::ranges::find(gmsh_line_of_degree, type);
+    if (line == gmsh_line_of_degree.end() && type != gmsh_triangle)
       reader.fail<ForeignMeshError>(name + ": type " + std::to_string(type) +
-                                    " (allowed: 1, 2-node line; 2, 3-node triangle)");
+                                    " (allowed: 1, 8, 26, 27, 28, 62, 63, lines of 2 to 8 nodes; "
+                                    "2, 3-node triangle)");
     const int tags = reader.field<int>(name + ": the number of tags");
     if (tags < 1) reader.fail<ForeignMeshError>(name + ": needs a first tag, its physical group");
     const int group = reader.field<int>(name + ": a physical group");
@@ -193,7 +218,7 @@ void read_elements(LineReader& reader, const PhysicalGroups& groups,
         reader.fail(name + ": node " + std::to_string(node) + " does not exist");
       return found->second;
     };
-    if (type == gmsh_line) {
+    if (type != gmsh_triangle) {
       const auto curve = groups.curves.find(group);
       if (curve == groups.curves.end())
         reader.fail<ForeignMeshError>(
@@ -201,6 +226,14 @@ void read_elements(LineReader& reader, const PhysicalGroups& groups,
             " is no boundary role (allowed: displacement, force, contact)");
       const int start = vertex(), end = vertex();
       mesh.boundary.push_back({{start, end}, curve->second.role, curve->second.group});
+      std::vector<Eigen::Vector2d> points = {mesh.vertices[start]};
+      for (auto inside = line - gmsh_line_of_degree.begin(); inside > 1; --inside) {
+        const int v = vertex();
+        is_inside_line[v] = true;
+        points.push_back(mesh.vertices[v]);
+      }
+      points.push_back(mesh.vertices[end]);
+      if (points.size() > 2) mesh.boundary.back().curve = EdgeCurve{points};
     } else {
       const auto body = groups.bodies.find(group);
       if (body == groups.bodies.end())
@@ -213,6 +246,7 @@ void read_elements(LineReader& reader, const PhysicalGroups& groups,
     reader.end_of_line();
   }
   reader.expect("$EndElements");
+  if (std::ranges::count(is_inside_line, true) > 0) drop_nodes(is_inside_line, mesh);
 }
 
 // The roles, then the named groups that have edges, by name.
@@ -227,7 +261,7 @@ std::vector<std::string> physical_curves(const Mesh& mesh) {
 
 }  // namespace
 
-Mesh read_msh(std::istream& in, const std::string& file_name, MovedVertices* straightened) {
+Mesh read_msh(std::istream& in, const std::string& file_name, std::vector<std::string>* notes) {
   LineReader reader(in, file_name);
   Mesh mesh;
   if (reader.next_line("$MeshFormat") != "$MeshFormat")
@@ -253,8 +287,8 @@ Mesh read_msh(std::istream& in, const std::string& file_name, MovedVertices* str
   mesh.name = file_name;  // until it is known to be good, the file is the name to complain about
   try {
     validate(mesh);
-    const MovedVertices moved = straighten_sides(mesh);
-    if (straightened) *straightened = moved;
+    std::vector<std::string> mended = mend(mesh);
+    if (notes) *notes = std::move(mended);
   } catch (const MeshError& error) {  // clockwise, or without a role: converted by --convert
     throw ForeignMeshError(error.what());
   }
@@ -262,7 +296,7 @@ Mesh read_msh(std::istream& in, const std::string& file_name, MovedVertices* str
   return mesh;
 }
 
-Mesh read_msh(const std::filesystem::path& file, MovedVertices* straightened) {
+Mesh read_msh(const std::filesystem::path& file, std::vector<std::string>* notes) {
   std::string text;
   try {
     text = file_text(file);
@@ -270,7 +304,7 @@ Mesh read_msh(const std::filesystem::path& file, MovedVertices* straightened) {
     throw MeshError(error.what());
   }
   std::istringstream in(std::move(text));
-  return read_msh(in, file.string(), straightened);
+  return read_msh(in, file.string(), notes);
 }
 
 void write_msh(std::ostream& out, const Mesh& mesh) {
@@ -287,16 +321,22 @@ void write_msh(std::ostream& out, const Mesh& mesh) {
   const std::size_t first_body = curves.size() + 1;
   for (std::size_t body = 0; body < mesh.body_names.size(); ++body)
     out << "2 " << first_body + body << " \"" << mesh.body_names[body] << "\"\n";
-  out << "$EndPhysicalNames\n$Nodes\n" << mesh.vertices.size() << "\n";
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    out << v + 1 << " " << number(mesh.vertices[v].x()) << " " << number(mesh.vertices[v].y())
-        << " 0\n";
+  std::vector<Eigen::Vector2d> nodes = mesh.vertices;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    if (const auto& points = edge.curve.points_mm; !points.empty())
+      nodes.insert(nodes.end(), points.begin() + 1, points.end() - 1);
+  out << "$EndPhysicalNames\n$Nodes\n" << nodes.size() << "\n";
+  for (std::size_t v = 0; v < nodes.size(); ++v)
+    out << v + 1 << " " << number(nodes[v].x()) << " " << number(nodes[v].y()) << " 0\n";
   out << "$EndNodes\n$Elements\n" << mesh.boundary.size() + mesh.triangles.size() << "\n";
-  std::size_t element = 0;
+  std::size_t element = 0, node = mesh.vertices.size();  // inside a curved line
   for (const BoundaryEdge& edge : mesh.boundary) {
     const auto tag = std::ranges::find(curves, boundary_label(mesh, edge)) - curves.begin() + 1;
-    out << ++element << " 1 2 " << tag << " " << tag << " " << edge.vertices[0] + 1 << " "
-        << edge.vertices[1] + 1 << "\n";
+    const int degree = edge.curve.is_straight() ? 1 : edge.curve.degree();
+    out << ++element << " " << gmsh_line_of_degree[degree] << " 2 " << tag << " " << tag << " "
+        << edge.vertices[0] + 1 << " " << edge.vertices[1] + 1;
+    for (int inside = 1; inside < degree; ++inside) out << " " << ++node;
+    out << "\n";
   }
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto tag = first_body + static_cast<std::size_t>(mesh.triangle_body[t]);

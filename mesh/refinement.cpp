@@ -1,5 +1,7 @@
 #include "mesh/refinement.hpp"
 
+#include "mesh/bisection.hpp"
+
 namespace airybench {
 
 Mesh uniformly_refined(const Mesh& mesh) {
@@ -9,10 +11,13 @@ Mesh uniformly_refined(const Mesh& mesh) {
   fine.name = mesh.name;
   fine.body_names = mesh.body_names;
   fine.boundary_groups = mesh.boundary_groups;
+  fine.is_polygon = mesh.is_polygon;
   fine.vertices.reserve(mesh.vertices.size() + edges.vertices.size());
   fine.vertices = mesh.vertices;
   for (const auto& [a, b] : edges.vertices)
     fine.vertices.emplace_back((mesh.vertices[a] + mesh.vertices[b]) / 2);
+  for (std::size_t row = 0; row < mesh.boundary.size(); ++row)
+    fine.vertices[vertices + edges.of_boundary[row]] = point_on(mesh, mesh.boundary[row], 0.5);
   fine.triangles.reserve(4 * mesh.triangles.size());
   fine.triangle_body.reserve(4 * mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -24,11 +29,11 @@ Mesh uniformly_refined(const Mesh& mesh) {
     fine.triangle_body.insert(fine.triangle_body.end(), 4, mesh.triangle_body[t]);
   }
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
-    BoundaryEdge first = mesh.boundary[row], second = first;
-    first.vertices[1] = second.vertices[0] = vertices + edges.of_boundary[row];
+    BoundaryEdge first = mesh.boundary[row];
+    const BoundaryEdge second = cut_at(first, vertices + edges.of_boundary[row], 0.5);
     fine.boundary.insert(fine.boundary.end(), {first, second});
   }
-  return fine;
+  return with_fitting_curves(std::move(fine));
 }
 
 void split_at_point(Mesh& mesh, int triangle, int k, const Eigen::Vector2d& p) {

@@ -2,57 +2,18 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <iomanip>
 #include <limits>
-#include <optional>
 #include <span>
 #include <sstream>
-#include <string_view>
+
+#include "mesh/coordinate_rounding.hpp"
 
 namespace airybench {
 namespace {
 
 using Line = Eigen::Hyperplane<double, 2>;
-
-int digits_of(double x) {
-  constexpr int shown = 12;
-  std::array<char, 32> buffer;  // "1.23000000000e+02"
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::abs(x),
-                                 std::chars_format::scientific, shown - 1)
-                       .ptr;
-  const std::string_view text(buffer.data(), end);
-  const auto last = text.substr(0, text.find('e')).find_last_not_of("0.");
-  return last == text.npos ? 0 : std::max(1, static_cast<int>(last));
-}
-
-bool is_single(double x) {
-  constexpr double rounding = 1e-13;  // of a division by the unit
-  return std::abs(static_cast<double>(static_cast<float>(x)) - x) <= rounding * std::abs(x);
-}
-
-// Of coordinates of one sign: fields of fixed width hold a digit less of negative ones.
-struct Coordinates {
-  double largest = 0;
-  int digits = 0;
-  bool are_single = true;
-
-  void add(double x) {
-    largest = std::max(largest, std::abs(x));
-    digits = std::max(digits, digits_of(x));
-    are_single = are_single && is_single(x);
-  }
-  // A unit of the last digit of the largest; 0: fewer digits are meant exactly; none: not rounded.
-  std::optional<double> rounding() const {
-    constexpr int fewest = 6, most = 10;
-    if (digits < fewest) return 0;
-    if (digits <= most) return std::pow(10, std::floor(std::log10(largest)) + 1 - digits);
-    if (are_single) return largest * 0x1p-23;
-    return {};
-  }
-};
 
 // Consecutive boundary edges of one role.
 class Chain {
@@ -61,18 +22,20 @@ class Chain {
 
   // 0: no edges bend by more than `least`, or where digits are few; none: they are not rounded.
   std::optional<double> rounding_mm(double least, double mm_per_unit) {
-    Coordinates positive, negative;
+    CoordinateRounding positive, negative;
     for (std::size_t k = is_closed() ? 0 : 1; k < rows_.size(); ++k)
       if (bend(k == 0 ? rows_.back() : rows_[k - 1], rows_[k]) > least)
         for (const double x : start_of(rows_[k]) / mm_per_unit)
           (x < 0 ? negative : positive).add(x);
-    const std::optional<double> one = positive.rounding(), other = negative.rounding();
+    const std::optional<double> one = positive.unit(), other = negative.unit();
     if (!one || !other) return {};
     return mm_per_unit * std::max(*one, *other);
   }
 
   void straighten(double least, double most, MovedVertices& moved) {
-    const auto is_corner = [&](int before, int row) { return bend(before, row) > most; };
+    const auto is_corner = [&](int before, int row) {
+      return is_curved(before) || is_curved(row) || bend(before, row) > most;
+    };
     if (is_closed())
       if (const auto at = std::ranges::adjacent_find(rows_, is_corner); at != rows_.end())
         std::rotate(rows_.begin(), at + 1, rows_.end());
@@ -86,6 +49,7 @@ class Chain {
  private:
   Eigen::Vector2d& start_of(int row) { return mesh_->vertices[mesh_->boundary[row].vertices[0]]; }
   Eigen::Vector2d& end_of(int row) { return mesh_->vertices[mesh_->boundary[row].vertices[1]]; }
+  bool is_curved(int row) const { return !mesh_->boundary[row].curve.is_straight(); }
   bool is_closed() { return &start_of(rows_.front()) == &end_of(rows_.back()); }
 
   // The distance of the vertex between two edges from the line through their other ends.

@@ -139,6 +139,10 @@ void check_values(const MeshTransform& transform) {
 
 Mesh transformed(Mesh mesh, const MeshTransform& transform) {
   check_values(transform);
+  if (transform.polygon) {
+    mesh.is_polygon = true;
+    for (BoundaryEdge& edge : mesh.boundary) edge.curve = {};
+  }
   if (transform.refine > 0) check_triangles(mesh, transform.refine);
   for (int k = 0; k < transform.refine; ++k) mesh = uniformly_refined(mesh);
   if (transform.grade && transform.grade->ratio > 1) {
@@ -152,16 +156,22 @@ Mesh transformed(Mesh mesh, const MeshTransform& transform) {
     add_slivers(mesh, *transform.slivers);
     check_after(mesh, "slivers: aspect", transform.slivers->aspect);
   }
+  const auto move_all = [&mesh](const auto& moved) {
+    for (Eigen::Vector2d& x : mesh.vertices) x = moved(x);
+    for (BoundaryEdge& edge : mesh.boundary)
+      for (Eigen::Vector2d& x : edge.curve.points_mm) x = moved(x);
+  };
+  using Point = Eigen::Vector2d;
   if (transform.scale != 1) {
-    for (Eigen::Vector2d& x : mesh.vertices) x *= transform.scale;
+    move_all([&](const Point& x) -> Point { return transform.scale * x; });
     check_after(mesh, "scale", transform.scale);
   }
   if (transform.stretch != Eigen::Vector2d(1, 1)) {
-    for (Eigen::Vector2d& x : mesh.vertices) x = x.cwiseProduct(transform.stretch);
+    move_all([&](const Point& x) -> Point { return x.cwiseProduct(transform.stretch); });
     check_after(mesh, "stretch", shown(transform.stretch));
   }
   if (!transform.move_mm.isZero(0)) {
-    for (Eigen::Vector2d& x : mesh.vertices) x += transform.move_mm;
+    move_all([&](const Point& x) -> Point { return x + transform.move_mm; });
     check_after(mesh, "move_mm", shown(transform.move_mm));
   }
   using enum BoundaryRole;

@@ -1,6 +1,7 @@
 // Transformations of a mesh, applied in the order of the members below; those not given change
 // nothing.
 //
+//   polygon  edges are the body, none a chord of a curve that it may look like or is known to be
 //   refine   k times: each triangle into four by its edges' middles, each boundary edge into two.
 //            V, E, T become V + E, 2E + 3T, 4T; shapes, roles and bodies are kept.
 //   grade    the edges at the vertex v nearest to a point are halved until none is longer than
@@ -40,6 +41,7 @@ struct Slivers {
 };
 
 struct MeshTransform {
+  bool polygon = false;
   int refine = 0;  // 0 to most_refinements
   std::optional<Grading> grade;
   std::optional<Slivers> slivers;

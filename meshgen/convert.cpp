@@ -8,9 +8,9 @@
 #include <optional>
 #include <set>
 
+#include "mesh/mend.hpp"
 #include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
-#include "mesh/straight_sides.hpp"
 #include "meshgen/geo_script.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/open_model.hpp"
@@ -39,8 +39,11 @@ Mesh mesh_of(const PlaneModel& model) {
     for (const Nodes& side : curve.sides) curve_of_side.emplace(side, &curve);
   for (const auto& [side, curve] : curve_of_side) {
     const BoundaryLabel label = *parse_boundary_label(curve->label);
-    mesh.boundary.push_back(
-        {{vertex[side[0]], vertex[side[1]]}, label.role, boundary_group(mesh, label.name)});
+    const auto bent = model.bent_sides.find(side);
+    mesh.boundary.push_back({{vertex[side[0]], vertex[side[1]]},
+                             label.role,
+                             boundary_group(mesh, label.name),
+                             bent == model.bent_sides.end() ? EdgeCurve() : bent->second});
   }
   return mesh;
 }
@@ -222,8 +225,8 @@ ConvertedModel convert_model(const std::filesystem::path& file, const ModelOptio
   }
   mesh.name = file.string();  // for validate() to complain about
   validate(mesh);
-  if (const auto moved = straighten_sides(mesh, model.mm_per_unit); moved.count > 0)
-    converted.notes.push_back(moved.words());
+  for (std::string& note : mend(mesh, model.mm_per_unit))
+    converted.notes.push_back(std::move(note));
   mesh.name = model_name(file);
   return converted;
 }

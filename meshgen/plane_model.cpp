@@ -12,6 +12,7 @@
 #include <unordered_map>
 
 #include "mesh/mesh.hpp"
+#include "meshgen/bent_sides.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
@@ -24,6 +25,9 @@ Nodes in_order(const Nodes& edge) {
 }
 
 class ModelReader {
+  using Span = std::span<const std::size_t>;
+  static constexpr std::size_t most_inside = EdgeCurve::max_degree;
+
  public:
   ModelReader() {
     std::vector<std::size_t> nodes;
@@ -38,7 +42,10 @@ class ModelReader {
     read_positions(mm_per_unit, notes);
     orient();
     read_curves();
-    if (is_reduced_) notes.emplace_back("elements of higher order are reduced to their corners");
+    if (is_reduced_)
+      notes.emplace_back(
+          "of elements of higher order, sides of the boundary keep their curves; others are "
+          "chords");
     if (quadrilaterals_ > 0)
       notes.push_back(
           fmt::format("{} quadrilaterals are split by the shorter diagonal", quadrilaterals_));
@@ -52,7 +59,8 @@ class ModelReader {
     return found->second;
   }
 
-  // Calls take(corners) for every element of an entity.
+  // Calls take(corners, inside) for every element of an entity. inside: its other nodes, those of
+  // its sides first.
   template <typename Take>
   void each_element(int dimension, int entity, const Take& take) {
     std::vector<int> types;
@@ -71,7 +79,8 @@ class ModelReader {
       is_reduced_ |= order > 1;
       const auto stride = static_cast<std::size_t>(node_count);
       for (std::size_t first = 0; first < nodes[k].size(); first += stride)
-        take(std::span(&nodes[k][first], static_cast<std::size_t>(corners)));
+        take(std::span(&nodes[k][first], static_cast<std::size_t>(corners)),
+             std::span(&nodes[k][first], stride).subspan(static_cast<std::size_t>(corners)));
     }
   }
 
@@ -85,6 +94,26 @@ class ModelReader {
     return is_inside(0, 1, 2, 3) && (p[2] - p[0]).norm() <= (p[3] - p[1]).norm();
   }
 
+  // The nodes inside each side of an element of higher order.
+  void keep_sides(Span corners, Span inside) {
+    // A triangle of degree p has 3 (p − 1) nodes in its sides and (p − 1)(p − 2)/2 in its middle, a
+    // quadrilateral 4 (p − 1) and (p − 1)², or none there.
+    std::size_t of_side = 0;
+    for (const std::size_t sides = corners.size(); of_side < most_inside; ++of_side) {
+      const std::size_t middle = sides == 3 ? of_side * (of_side - 1) / 2 : of_side * of_side;
+      const std::size_t left = inside.size() - sides * of_side;
+      if (inside.size() >= sides * of_side && (left == middle || left == 0)) break;
+    }
+    for (std::size_t k = 0; k < corners.size() && of_side > 0 && of_side < most_inside; ++k)
+      keep_side(corners[k], corners[(k + 1) % corners.size()],
+                inside.subspan(k * of_side, of_side));
+  }
+  void keep_side(std::size_t from, std::size_t to, Span inside) {
+    std::vector<std::size_t> nodes(inside.begin(), inside.end());
+    if (from > to) std::ranges::reverse(nodes);
+    inside_of_side_[in_order({from, to})] = std::move(nodes);
+  }
+
   void read_surface(int surface, int body) {
     const std::size_t before = model_.triangles.size();
     std::set<std::array<std::size_t, 3>> seen;  // MSH 2 has an element once for each of its groups
@@ -95,7 +124,8 @@ class ModelReader {
       if (is_new) model_.triangles.push_back({{a, b, c}, body, surface});
       return is_new;
     };
-    each_element(2, surface, [&](std::span<const std::size_t> n) {
+    each_element(2, surface, [&](Span n, Span inside) {
+      keep_sides(n, inside);
       if (n.size() == 3) {
         add(n[0], n[1], n[2]);
         return;
@@ -212,11 +242,13 @@ class ModelReader {
           fmt::format("it lies in the plane {} = {:.6g}: its {} and {} are x and y here",
                       names[normal], box.min()[normal], names[first], names[second]));
     model_.mm_per_unit = mm_per_unit;
+    axes_ = {first, second};
     for (const ModelTriangle& triangle : model_.triangles)
-      for (const std::size_t node : triangle.nodes) {
-        const Eigen::Vector3d& p = place(node);
-        model_.position.emplace(node, mm_per_unit * Eigen::Vector2d(p[first], p[second]));
-      }
+      for (const std::size_t node : triangle.nodes)
+        model_.position.emplace(node, in_plane(place(node)));
+  }
+  Eigen::Vector2d in_plane(const Eigen::Vector3d& p) const {  // mm
+    return model_.mm_per_unit * Eigen::Vector2d(p[axes_[0]], p[axes_[1]]);
   }
 
   void orient() {
@@ -259,15 +291,20 @@ class ModelReader {
       ModelCurve& curve = curves[number];
       curve.number = number;
       std::set<Nodes> seen;
-      each_element(1, number, [&](std::span<const std::size_t> n) {
+      const CurveGeometry geometry(number);
+      each_element(1, number, [&](Span n, Span inside) {
         const Nodes edge = in_order({n[0], n[1]});
         if (!seen.insert(edge).second) return;
-        if (const auto side = left.extract(edge))
+        if (!inside.empty() && inside.size() < most_inside) keep_side(n[0], n[1], inside);
+        if (const auto side = left.extract(edge)) {
           curve.sides.push_back(side.mapped());
-        else
+          bend(side.mapped(), geometry.between(side.mapped()[0], side.mapped()[1]));
+        } else {
           curve.inner.push_back(edge);
+        }
       });
     }
+    for (const auto& [edge, side] : boundary()) bend_as_elements(side);
     gmsh::model::getPhysicalGroups(groups, 1);
     for (const auto& [dimension, group] : groups) {
       std::string name;
@@ -285,6 +322,26 @@ class ModelReader {
         model_.curves.push_back(std::move(curve));
     }
     add_curves_of(left);
+  }
+
+  void bend(const Nodes& side, const std::vector<Eigen::Vector3d>& points) {
+    std::vector<Eigen::Vector2d> points_mm;
+    for (const Eigen::Vector3d& p : points) points_mm.push_back(in_plane(p));
+    if (points_mm.empty()) return;
+    points_mm.front() = model_.position.at(side[0]);
+    points_mm.back() = model_.position.at(side[1]);
+    if (EdgeCurve curve = curve_through(points_mm, model_.mm_per_unit); !curve.is_straight())
+      model_.bent_sides.emplace(side, std::move(curve));
+  }
+  // Where there is no geometry.
+  void bend_as_elements(const Nodes& side) {
+    const auto inside = inside_of_side_.find(in_order(side));
+    if (inside == inside_of_side_.end() || model_.bent_sides.contains(side)) return;
+    std::vector<Eigen::Vector3d> points = {place(side[0])};
+    for (const std::size_t node : inside->second) points.push_back(place(node));
+    if (side[0] > side[1]) std::reverse(points.begin() + 1, points.end());
+    points.push_back(place(side[1]));
+    bend(side, points);
   }
 
   // All lines of some formats are one such curve.
@@ -337,6 +394,8 @@ class ModelReader {
   }
 
   std::unordered_map<std::size_t, Eigen::Vector3d> places_;
+  std::map<Nodes, std::vector<std::size_t>> inside_of_side_;  // from the lower node to the higher
+  std::array<int, 2> axes_ = {0, 1};                          // that are x and y here
   PlaneModel model_;
   std::vector<int> empty_surfaces_;
   int quadrilaterals_ = 0;

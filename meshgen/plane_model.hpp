@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/edge_curve.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
@@ -33,7 +34,8 @@ struct PlaneModel {
   std::map<std::size_t, Eigen::Vector2d> position;  // mm, of the triangles' nodes
   std::vector<ModelTriangle> triangles;
   std::vector<std::string> body_names;
-  std::vector<ModelCurve> curves;  // those of Gmsh with an edge, by number, then the others
+  std::vector<ModelCurve> curves;         // those of Gmsh with an edge, by number, then the others
+  std::map<Nodes, EdgeCurve> bent_sides;  // mm, of the boundary, the body on their left
 };
 
 struct FlatTriangleError : InputError {
@@ -41,8 +43,9 @@ struct FlatTriangleError : InputError {
 };
 
 // Of the physical surfaces, or of all where there is none. Quadrilaterals are split by the shorter
-// diagonal, elements of higher order reduced to their corners, the planes y = constant and x =
-// constant turned; a note tells of each. Sides of the boundary that no curve has become curves from
+// diagonal, the planes y = constant and x = constant turned; a note tells of each. A side of the
+// boundary is bent as the curve of the geometry that it is on, without one as the nodes inside it.
+// Inner sides become chords. Sides of the boundary that no curve has become curves from
 // corner to corner. Throws InputError, FlatTriangleError.
 PlaneModel read_plane_model(double mm_per_unit, std::vector<std::string>& notes);
 

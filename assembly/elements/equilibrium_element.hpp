@@ -145,6 +145,22 @@ class EquilibriumElement {
   SmallCholesky<Scalar, Degree::modes> flexibility_;
 };
 
+namespace equilibrium_formulas {
+
+// (xx, yy, xy) of B τ Bᵀ / det B.
+template <typename Scalar>
+Eigen::Matrix3<Scalar> stress_map(const Eigen::Matrix2<Scalar>& B, const Scalar& determinant) {
+  const Scalar a = B(0, 0), b = B(0, 1), c = B(1, 0), d = B(1, 1), two = 2;
+  const Scalar entries[3][3] = {
+      {a * a, b * b, two * a * b}, {c * c, d * d, two * c * d}, {a * c, b * d, a * d + b * c}};
+  Eigen::Matrix3<Scalar> map;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) map(i, j) = entries[i][j] / determinant;
+  return map;
+}
+
+}  // namespace equilibrium_formulas
+
 // Bernstein coefficients, as columns of EquilibriumElement::Stress, of a linear stress from its
 // values (xx, yy, xy) at V1, V2, V3.
 template <int k, typename Scalar>

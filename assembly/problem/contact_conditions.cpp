@@ -15,7 +15,8 @@ using ThreePoints = std::array<double, 3>;  // at start, middle and end of an ed
 
 struct EdgeValues {
   double friction, clearance_mm;
-  const std::optional<Wall>&wall, &face;
+  const std::optional<Wall>& wall;
+  std::optional<Wall> face;
 };
 
 EdgeValues values_of(const Mesh& mesh, int row, const Scene& scene) {
@@ -25,11 +26,13 @@ EdgeValues values_of(const Mesh& mesh, int row, const Scene& scene) {
   for (const ContactPair& pair : scene.contacts)
     if (pair.has(label))
       return {pair.friction.value_or(scene.friction),
-              pair.has_first(label) ? pair.clearance_mm.value_or(0) : 0, no_wall, no_wall};
+              pair.has_first(label) ? pair.clearance_mm.value_or(0) : 0,
+              no_wall,
+              {}};
   const auto given = scene.boundary.find(label);
   const ContactValues& own = given == scene.boundary.end() ? none : given->second.contact;
   return {own.friction.value_or(scene.friction), own.clearance_mm.value_or(scene.clearance_mm),
-          own.wall ? own.wall : scene.wall, own.face ? own.face : scene.face};
+          own.wall ? own.wall : scene.wall, curve_of(mesh, row, scene)};
 }
 
 std::array<Eigen::Vector2d, 3> points_of(const Mesh& mesh, int row) {
@@ -126,9 +129,10 @@ ReachableContact with_reachable_contact(MatchedFaces faces, const Scene& scene) 
       throw TransformError(label +
                            ": wall: no edge meets it (allowed: a wall that lies in the direction "
                            "of the edges' outward normals, its free side towards them)");
-  for (const int row : free)
-    mesh.boundary[row] = {mesh.boundary[row].vertices, BoundaryRole::force,
-                          boundary_group(mesh, out_of_reach)};
+  for (const int row : free) {
+    mesh.boundary[row].role = BoundaryRole::force;
+    mesh.boundary[row].group = boundary_group(mesh, out_of_reach);
+  }
   return {std::move(mesh), std::move(faces.edges), faces.changes, std::move(pieces_of_row)};
 }
 
@@ -183,7 +187,8 @@ std::vector<ContactNormals> contact_normals(const ReachableContact& contact, con
     const Eigen::Vector2d &a = mesh.vertices[start], &b = mesh.vertices[end],
                           m = edge_frame(a, b).normal;
     const auto at = [&](const Eigen::Vector2d& x) {
-      return values.wall ? facing(mesh, row, values).direction_at(x) : m;
+      if (values.wall) return facing(mesh, row, values).direction_at(x);
+      return values.face ? normal_of_curve(*values.face, x, m) : m;
     };
     constexpr double rounding = 1e-12;
     for (int n = 1; n <= ContactNormals::most_parts; ++n)

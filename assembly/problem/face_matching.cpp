@@ -8,6 +8,7 @@
 #include <unsupported/Eigen/BVH>
 
 #include "assembly/elements/edge_forces.hpp"
+#include "mesh/circle.hpp"
 #include "mesh/transform_error.hpp"
 
 namespace airybench {
@@ -16,20 +17,12 @@ namespace {
 using Point = Eigen::Vector2d;
 constexpr double least_facing = 0.5;  // of −n·m: faces up to 60° from parallel
 
-// Of the curve that an edge of normal m stands for.
-std::optional<Point> normal_of_curve(const std::optional<Wall>& face, const Point& x,
-                                     const Point& m) {
-  if (!face) return {};
-  std::optional<Point> n = direction_towards(*face, x);
-  if (n && n->dot(m) < 0) *n *= -1;
-  return n;
-}
-
 // Where a vertex meets the other face.
 struct Hit {
   int row;          // of the other face
   double s;         // along it
   double distance;  // along the normal
+  Point normal;
 };
 
 // One pair of faces while their mesh is changed.
@@ -53,6 +46,11 @@ class Matcher {
   std::array<int, 2> ends(int row) const { return mesh_.boundary[row].vertices; }
   double length(int row) const { return (x(ends(row)[1]) - x(ends(row)[0])).norm(); }
   Point place(int row, double s) const { return (1 - s) * x(ends(row)[0]) + s * x(ends(row)[1]); }
+  // Of the edge's curve, where a normal meets it.
+  double parameter(const Hit& hit) const {
+    const EdgeCurve& curve = mesh_.boundary[hit.row].curve;
+    return curve.is_straight() ? hit.s : curve.parameter_on_line(place(hit.row, hit.s), hit.normal);
+  }
   Point edge_normal(int row) const { return edge_frame(x(ends(row)[0]), x(ends(row)[1])).normal; }
   // From a vertex of the first face along its normal to an edge of the second.
   std::optional<Hit> on_second(int v, int row) const {
@@ -61,7 +59,7 @@ class Matcher {
     const Point along = x(to) - x(from), d = x(v) - x(from);
     const double across = cross(along, n);
     if (edge_normal(row).dot(n) > -least_facing || across == 0) return {};
-    return within_reach({row, clamped(cross(d, n) / across), cross(d, along) / across});
+    return within_reach({row, clamped(cross(d, n) / across), cross(d, along) / across, n});
   }
   // From a vertex of the second face against the normal at the place met on an edge of the first:
   // with x(s) and n(s) linear along it, cross(v − x(s), n(s)) = 0 is quadratic in s.
@@ -75,7 +73,8 @@ class Matcher {
     if (root < 0) return {};
     // The root that stays where a is zero.
     const double at = clamped(-2 * c / (b + std::copysign(std::sqrt(root), b)));
-    return within_reach({row, at, (x(v) - place(row, at)).dot((n + at * turn).normalized())});
+    const Point normal = (n + at * turn).normalized();
+    return within_reach({row, at, (x(v) - place(row, at)).dot(normal), normal});
   }
   std::optional<Hit> on_other(int side, int v, int row) const {
     return side == 0 ? on_second(v, row) : on_first(v, row);
@@ -174,18 +173,28 @@ class Matcher {
   bool move(const Near& both, const std::array<RowsAt, 2>& at) {
     if (!face_[1].fixed.contains(both.second))
       if (const std::optional<Hit> hit = beside(0, both.first, at[1].at(both.second)))
-        return move_along(1, both.second, *hit);
+        return move_along(1, both.second, *hit, at[1].at(both.second));
     if (!face_[0].fixed.contains(both.first))
       if (const std::optional<Hit> hit = beside(1, both.second, at[0].at(both.first)))
-        return move_along(0, both.first, *hit);
+        return move_along(0, both.first, *hit, at[0].at(both.first));
     return false;
   }
   // With the normal that its face has there.
-  bool move_along(int side, int v, const Hit& hit) {
+  bool move_along(int side, int v, const Hit& hit, const std::vector<int>& rows_at_v) {
     const Point n = normal_at(side, hit.row, hit.s);
-    if (!move_to(v, place(hit.row, hit.s))) return false;
+    if (!move_to(v, point_on(mesh_, mesh_.boundary[hit.row], parameter(hit)))) return false;
+    for (const int row : rows_at_v) fit_curve(row, v);
     face_[side].normal[v] = n;
     return true;
+  }
+  // To an end v of its edge that has moved along it.
+  void fit_curve(int row, int v) {
+    EdgeCurve& curve = mesh_.boundary[row].curve;
+    if (curve.is_straight()) return;
+    const auto [a, b] = ends(row);
+    const double t = curve.parameter_on_line(x(v), Point(-curve.chord().y(), curve.chord().x()));
+    curve = v == a ? curve.between(t, 1) : curve.between(0, t);
+    curve.move_ends(x(a), x(b));
   }
   // Unless a triangle there would lose more than half its area.
   bool move_to(int v, const Point& to) {
@@ -208,9 +217,9 @@ class Matcher {
   }
 
   struct Node {
-    double s;
-    int vertex;  // of the other face, that it faces
-    Point n;     // of the face that it is put into
+    double s, t;  // on the chord and on the curve
+    int vertex;   // of the other face, that it faces
+    Point n;      // of the face that it is put into
   };
   void insert(std::map<int, int>& twin) {
     std::map<int, std::vector<Node>> into[2];  // per row
@@ -226,7 +235,8 @@ class Matcher {
         const std::optional<Hit> hit = on_other(side, v, trees[1 - side]);
         if (!hit) continue;
         if (is_inside(hit->s))
-          into[1 - side][hit->row].push_back({hit->s, v, normal_at(1 - side, hit->row, hit->s)});
+          into[1 - side][hit->row].push_back(
+              {hit->s, parameter(*hit), v, normal_at(1 - side, hit->row, hit->s)});
         else if (const int end = ends(hit->row)[hit->s > 0 ? 1 : 0]; is_matched(1 - side, end))
           met_twice_ = x(end);
       }
@@ -252,7 +262,8 @@ class Matcher {
     const auto [from, to] = ends(row);
     const MatchingFace& face = face_[side];
     const Point mean = ((1 - s) * face.normal.at(from) + s * face.normal.at(to)).normalized();
-    return normal_of_curve(face.curve.at(row), place(row, s), mean).value_or(mean);
+    const std::optional<Wall>& curve = face.curve.at(row);
+    return curve ? normal_of_curve(*curve, place(row, s), mean) : mean;
   }
   void put_at_vertices(std::size_t t) {
     for (const int v : mesh_.triangles[t])
@@ -272,23 +283,27 @@ class Matcher {
     const auto [a, b] = ends(row);
     const auto [t, across] = triangle_on(a, b);
     std::vector<std::pair<int, int>> born;
+    const BoundaryEdge whole = mesh_.boundary[row];
+    std::vector<BoundaryEdge> parts = {whole};
     first_born_ = static_cast<int>(mesh_.vertices.size());
+    double before = 0;  // parameter of the node before
     for (const Node& node : nodes) {
       born.emplace_back(static_cast<int>(mesh_.vertices.size()), node.vertex);
-      mesh_.vertices.push_back((1 - node.s) * x(a) + node.s * x(b));
+      const double of_rest = (node.t - before) / (1 - before);
+      mesh_.vertices.push_back(whole.curve.is_straight() ? point_on(mesh_, whole, node.t)
+                                                         : point_on(mesh_, parts.back(), of_rest));
+      parts.push_back(cut_at(parts.back(), born.back().first, of_rest));
+      before = node.t;
     }
     changes_.inserted += static_cast<int>(born.size());
     split_rows_.push_back(row);
     mesh_.triangles[t] = {a, born.front().first, across};
-    mesh_.boundary[row].vertices[1] = born.front().first;
-    for (std::size_t i = 0; i < born.size(); ++i) {
-      const int from = born[i].first, to = i + 1 < born.size() ? born[i + 1].first : b;
-      mesh_.triangles.push_back({from, to, across});
+    mesh_.boundary[row] = parts.front();
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      mesh_.triangles.push_back({parts[i].vertices[0], parts[i].vertices[1], across});
       put_at_vertices(mesh_.triangles.size() - 1);
       mesh_.triangle_body.push_back(mesh_.triangle_body[t]);
-      BoundaryEdge part = mesh_.boundary[row];
-      part.vertices = {from, to};
-      mesh_.boundary.push_back(part);
+      mesh_.boundary.push_back(parts[i]);
     }
     return born;
   }
@@ -306,10 +321,28 @@ class Matcher {
 
 }  // namespace
 
-const std::optional<Wall>& curve_of(const Scene& scene, const std::string& label) {
-  static const std::optional<Wall> none;
-  const auto own = scene.boundary.find(label);
-  return own == scene.boundary.end() ? none : own->second.contact.face;
+Point normal_of_curve(const Wall& curve, const Point& x, const Point& m) {
+  const Point n = direction_towards(curve, x).value_or(m);
+  return n.dot(m) < 0 ? Point(-n) : n;
+}
+
+std::optional<Wall> curve_of(const Mesh& mesh, int boundary_row, const Scene& scene) {
+  constexpr double straight = 1e9;  // radius over chord
+  const BoundaryEdge& edge = mesh.boundary[boundary_row];
+  const std::string label = boundary_label(mesh, edge);
+  if (const auto own = scene.boundary.find(label);
+      own != scene.boundary.end() && own->second.contact.face)
+    return own->second.contact.face;
+  if (scene.face && !is_paired(scene, label)) return scene.face;
+  if (edge.curve.is_straight()) return {};
+  const Point &a = edge.curve.points_mm.front(), &b = edge.curve.points_mm.back(),
+              middle = edge.curve.at(0.5);
+  const auto circle = circle_through(a, middle, b);
+  if (!circle || circle->radius_mm > straight * (b - a).norm())
+    return FlatWall{a, Point(a.y() - b.y(), b.x() - a.x()).normalized()};
+  const bool is_convex = cross_area(a, b, middle) < 0;  // the body is on the left
+  return CircularWall{circle->centre_mm, circle->radius_mm,
+                      is_convex ? CircularWall::Bodies::inside : CircularWall::Bodies::outside};
 }
 
 MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, const Scene& scene) {
@@ -321,11 +354,11 @@ MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, c
     const std::string label = boundary_label(mesh, edge);
     if (std::ranges::count(labels, label) == 0) continue;
     face.rows.push_back(row);
-    face.curve[row] = curve_of(scene, label);
+    face.curve[row] = curve_of(mesh, row, scene);
     const Point &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
     const Point n = edge_frame(a, b).normal;
     for (const int v : edge.vertices)
-      at[v].push_back(normal_of_curve(face.curve[row], mesh.vertices[v], n).value_or(n));
+      at[v].push_back(face.curve[row] ? normal_of_curve(*face.curve[row], mesh.vertices[v], n) : n);
   }
   for (const auto& [v, normals] : at) {
     face.normal[v] = (normals.front() + normals.back()).normalized();

@@ -13,8 +13,13 @@
 
 namespace airybench {
 
-// The curve that a group of contact edges stands for, if the scene gives one.
-const std::optional<Wall>& curve_of(const Scene& scene, const std::string& label);
+// What a contact edge stands for: the curve that the scene gives its group, or else the circle
+// through the ends and the middle of the mesh's own curve; none: itself.
+std::optional<Wall> curve_of(const Mesh& mesh, int boundary_row, const Scene& scene);
+
+// At x on an edge of normal m that stands for the curve; m where the curve has none.
+Eigen::Vector2d normal_of_curve(const Wall& curve, const Eigen::Vector2d& x,
+                                const Eigen::Vector2d& m);
 
 // The edges of one or more groups, with a normal at every vertex.
 struct MatchingFace {

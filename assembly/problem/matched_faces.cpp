@@ -89,7 +89,7 @@ class PairedEdges {
   }
   // From a point of an edge that stands for a curve to the curve.
   double to_curve(int row, const Point& x, const Point& n) const {
-    const std::optional<Wall>& curve = curve_of(scene_, label(row));
+    const std::optional<Wall> curve = curve_of(mesh_, row, scene_);
     return curve ? distance_to_either_side(*curve, x, n).value_or(0) : 0;
   }
   void put(int row, int other, double size_mm,
@@ -123,7 +123,7 @@ class PairedEdges {
                    shown(most * size_mm) + " mm)");
     }
     for (const int side : {row, other})
-      if (const std::optional<Wall>& curve = curve_of(scene_, label(side)))
+      if (const std::optional<Wall> curve = curve_of(mesh_, side, scene_))
         check_face(mesh_, side, label(side), *curve, most_of_face * size_mm);
     edges[row] = of_first;
     edges[other] = of_second;
@@ -200,8 +200,9 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
   for (const ContactPair& pair : scene.contacts)
     for (std::size_t row = 0; row < changed.boundary.size(); ++row) {
       BoundaryEdge& edge = changed.boundary[row];
-      if (!result.edges[row] && pair.has(boundary_label(changed, edge)))
-        edge = {edge.vertices, BoundaryRole::force, boundary_group(changed, out_of_reach)};
+      if (result.edges[row] || !pair.has(boundary_label(changed, edge))) continue;
+      edge.role = BoundaryRole::force;
+      edge.group = boundary_group(changed, out_of_reach);
     }
   return result;
 }

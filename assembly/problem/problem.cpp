@@ -37,6 +37,31 @@ std::vector<int> central_vertices(const Problem& problem, const MeshPieces& piec
   return central;
 }
 
+void find_round_triangles(Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  std::vector<int> row_of_edge(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);
+  bool any = false;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
+    if (const BoundaryEdge& edge = mesh.boundary[row];
+        edge.role == BoundaryRole::force && !edge.curve.is_straight()) {
+      row_of_edge[problem.edges.of_boundary[row]] = row;
+      any = true;
+    }
+  for (int t = 0; any && t < static_cast<int>(mesh.triangles.size()); ++t) {
+    Problem::RoundTriangle round{t, {Problem::no_row, Problem::no_row, Problem::no_row}};
+    const TriangleVertices v = problem.vertices_of(t);
+    for (int side = 0; side < 3; ++side)
+      if (const int row = row_of_edge[problem.edges.of_triangle[t][side]];
+          row != Problem::no_row && fits(mesh.boundary[row].curve, v.col((side + 2) % 3))) {
+        round.rows[side] = row;
+        problem.round_rows.push_back(row);
+      }
+    if (round.rows != std::array{Problem::no_row, Problem::no_row, Problem::no_row})
+      problem.round.push_back(round);
+  }
+  std::ranges::sort(problem.round_rows);
+}
+
 // Empty without friction.
 std::vector<double> friction_on_contact(const Mesh& mesh, std::vector<double> friction) {
   for (std::size_t row = 0; row < friction.size(); ++row)
@@ -63,6 +88,21 @@ ContactOffset Problem::offset_at(const Eigen::Vector2d& x, int boundary_row) con
   ContactOffset offset{.motion_mm = motion_at(x, mesh.boundary[boundary_row].vertices[0])};
   if (loads.gap_mm) offset.gap_mm = loads.gap_mm(x, boundary_row);
   return offset;
+}
+
+std::optional<Problem::Curves> Problem::curves_of(int triangle, int degree) const {
+  if (degree < 2) return {};
+  const auto found = std::ranges::lower_bound(round, triangle, {}, &RoundTriangle::triangle);
+  if (found == round.end() || found->triangle != triangle) return {};
+  Curves curves;
+  for (std::size_t side = 0; side < 3; ++side)
+    if (const int row = found->rows[side]; row != no_row)
+      curves[side] = mesh.boundary[row].curve.points_mm;
+  return curves;
+}
+
+bool Problem::follows_curve(int boundary_row, int degree) const {
+  return degree >= 2 && std::ranges::binary_search(round_rows, boundary_row);
 }
 
 bool Problem::contact_turns() const {
@@ -105,7 +145,7 @@ EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
 
 bool same_body(const Problem& a, const Problem& b) {
   const auto alike = [](const BoundaryEdge& x, const BoundaryEdge& y) {
-    return x.vertices == y.vertices && x.role == y.role;
+    return x.vertices == y.vertices && x.role == y.role && x.curve.points_mm == y.curve.points_mm;
   };
   if (a.mesh.vertices != b.mesh.vertices || a.mesh.triangles != b.mesh.triangles ||
       a.mesh.triangle_body != b.mesh.triangle_body || a.compliance != b.compliance ||
@@ -141,6 +181,7 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
   const MeshPieces pieces = pieces_of(problem.mesh);
   problem.free = free_motions(problem.mesh, problem.loads.rollers, pieces);
   problem.central_vertices = central_vertices(problem, pieces);
+  find_round_triangles(problem);
   return problem;
 }
 
@@ -164,6 +205,8 @@ Problem with_loads(const Problem& problem, Loads loads) {
                  .contact_normals = problem.contact_normals,
                  .opposite = problem.opposite,
                  .matching = problem.matching,
+                 .round = problem.round,
+                 .round_rows = problem.round_rows,
                  .central_vertices = problem.central_vertices};
   result.free.amounts_mm.resize(0);
   take_out_rigid_motion(result);

@@ -21,6 +21,8 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -118,6 +120,14 @@ struct Problem {
     int inserted = 0, moved = 0;
     bool has_curves = false;  // edges stand for curves; the gap is known at three points of each
   } matching = {};
+  // Stresses of degree 2 and more follow curved force edges (curved_element.hpp); others take their
+  // chords. Triangles and rows in ascending order.
+  struct RoundTriangle {
+    int triangle;
+    std::array<int, 3> rows;  // per side, of Mesh::boundary
+  };
+  std::vector<RoundTriangle> round = {};
+  std::vector<int> round_rows = {};
   // Load steps after this one, with the whole u0. Slip is measured from the previous step, so they
   // are posed one by one (load_steps.hpp).
   std::vector<Loads> later_steps = {};
@@ -135,6 +145,12 @@ struct Problem {
     return cross_area<Scalar>(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
   }
   EdgeSigns edge_signs(int triangle) const;  // see hct.hpp
+
+  // Per side of a triangle points of the curve that stresses of a degree follow; none:
+  // straight sides only.
+  using Curves = std::array<std::span<const Eigen::Vector2d>, 3>;
+  std::optional<Curves> curves_of(int triangle, int degree) const;
+  bool follows_curve(int boundary_row, int degree) const;
 
   double friction_at(int boundary_row) const {
     return friction.empty() ? 0 : friction[static_cast<std::size_t>(boundary_row)];

@@ -194,6 +194,9 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
         note_polygons(file.mesh, scene);
       }
     }
+  for (const MeshFile& file : meshes.begin()->second)
+    for (const std::string& note : file.notes)
+      std::cerr << fmt::format("note: {}: {}\n", file.path.string(), note);
   if (!options.dry_run && !options.explain)
     for (const auto& [settings, files] : meshes) keep_models(files);
   return posed;

@@ -15,19 +15,6 @@ double to_pm(double mm) { return std::round(mm * 1e9) / 1e9 + 0.; }
 
 Json rounded(const Eigen::Vector2d& mm) { return {to_pm(mm.x()), to_pm(mm.y())}; }
 
-std::optional<Circle> circle_through(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                                     const Eigen::Vector2d& c) {
-  constexpr double straight = 1e-6;  // height of the triangle against its sides
-  const Eigen::Vector2d ab = b - a, ac = c - a;
-  const double area = cross(ab, ac);
-  if (std::abs(area) <= straight * ab.norm() * ac.norm()) return {};
-  const Eigen::Vector2d to_centre =
-      Eigen::Vector2d(ac.y() * ab.squaredNorm() - ab.y() * ac.squaredNorm(),
-                      ab.x() * ac.squaredNorm() - ac.x() * ab.squaredNorm()) /
-      (2 * area);
-  return Circle{a + to_centre, to_centre.norm()};
-}
-
 struct Sums {
   Eigen::Vector2d normal = {0, 0}, moment = {0, 0};  // integrals of n and x over the length
   double length = 0, area = 0;                       // twice the area on the left of closed curves
@@ -95,12 +82,13 @@ double radius_touching(const std::vector<FaceCurve>& curves, const Eigen::Vector
 
 std::optional<Circle> circle_of(const std::vector<Walk>& walks) {
   constexpr double allowed = 1e-6, longest_side = 0.9;  // a square's vertices lie on a circle, too
+  constexpr double straight = 5e5;                      // radius over chord
   constexpr std::size_t least = 4;
   const Walk& longest = *std::ranges::max_element(walks, {}, &Walk::size);
   if (longest.size() < least) return {};
   const std::size_t third = (longest.size() - 1) / 3;
   const auto circle = circle_through(longest[0], longest[third], longest[2 * third]);
-  if (!circle) return {};
+  if (!circle || circle->radius_mm > straight * (longest[2 * third] - longest[0]).norm()) return {};
   for (const Walk& walk : walks)
     for (std::size_t k = 0; k < walk.size(); ++k) {
       const double off = (walk[k] - circle->centre_mm).norm() - circle->radius_mm;
@@ -188,7 +176,10 @@ std::map<std::string, std::vector<double>> corners_of_curves(const Mesh& mesh, c
       const auto given = scene.boundary.find(label);
       const ContactValues own =
           given == scene.boundary.end() ? ContactValues() : given->second.contact;
-      if (own.face || scene.face || !(own.wall || scene.wall)) continue;
+      const bool is_known = !scene.mesh.polygon &&
+                            !mesh.boundary[chain[k - 1]].curve.is_straight() &&
+                            !mesh.boundary[chain[k]].curve.is_straight();
+      if (is_known || own.face || scene.face || !(own.wall || scene.wall)) continue;
       const auto along = [&](int row) -> Eigen::Vector2d {
         const auto [start, end] = mesh.boundary[row].vertices;
         return mesh.vertices[end] - mesh.vertices[start];

@@ -10,14 +10,10 @@
 
 #include "assembly/problem/scene.hpp"
 #include "bench/records/json.hpp"
+#include "mesh/circle.hpp"
 #include "mesh/mesh.hpp"
 
 namespace airybench {
-
-struct Circle {
-  Eigen::Vector2d centre_mm;
-  double radius_mm;
-};
 
 // Vertices in mm, with the body on the left; a closed curve ends where it begins.
 using Walk = std::vector<Eigen::Vector2d>;

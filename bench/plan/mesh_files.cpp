@@ -125,10 +125,7 @@ MeshFile read_or_convert(const std::filesystem::path& path, const std::filesyste
       is_of_catalogue(path) || std::ranges::none_of(settings, changes_any_mesh);
   if (!is_msh || !is_as_it_is) return converted(path, out, settings);
   try {
-    MeshFile file = read_mesh_file(path);
-    if (file.straightened.count > 0)
-      std::cerr << fmt::format("note: {}: {}\n", path.string(), file.straightened.words());
-    return file;
+    return read_mesh_file(path);
   } catch (const ForeignMeshError&) {
     if (is_of_catalogue(path) || !converter_program()) throw;
   }
@@ -141,10 +138,11 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   if (is_of_catalogue(path))
     if (const auto refined = parse_refined_name(path.stem().string()))
       return refined_mesh(path, *refined);
-  MovedVertices straightened;
-  Mesh mesh = read_msh(path, &straightened);
-  check_name(mesh, path);
-  return {path, sha256_of_file(path), std::move(mesh), false, straightened};
+  MeshFile file{path, "", {}};
+  file.mesh = read_msh(path, &file.notes);
+  check_name(file.mesh, path);
+  file.sha256 = sha256_of_file(path);
+  return file;
 }
 
 std::vector<MeshFile> read_meshes(const RunSettings& run, const std::filesystem::path& out,

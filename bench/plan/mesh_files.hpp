@@ -7,7 +7,6 @@
 
 #include "bench/plan/options.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/straight_sides.hpp"
 
 namespace airybench {
 
@@ -15,8 +14,8 @@ struct MeshFile {
   std::filesystem::path path;
   std::string sha256;
   Mesh mesh;
-  bool is_of_model = false;  // converted from a model: the file may not exist yet
-  MovedVertices straightened = {};
+  bool is_of_model = false;             // converted from a model: the file may not exist yet
+  std::vector<std::string> notes = {};  // of mend()
 };
 
 std::filesystem::path mesh_directory();  // $AIRYBENCH_MESH_DIR, else the program's own catalogue

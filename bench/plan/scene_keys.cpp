@@ -105,12 +105,12 @@ static void read(const JsonValue& value, Slivers& slivers) {
 }
 
 static void read(const JsonValue& value, MeshTransform& mesh) {
-  value.object({whole("refine", mesh.refine, 0, most_refinements), key("grade", mesh.grade),
-                key("slivers", mesh.slivers), positive("scale", mesh.scale),
-                key("stretch", mesh.stretch), key("move_mm", mesh.move_mm),
-                whole("keep_contact_edges", mesh.keep_contact_edges, 0, most),
-                whole("keep_displacement_edges", mesh.keep_displacement_edges, 1, most),
-                whole("keep_force_edges", mesh.keep_force_edges, 0, most)});
+  value.object(
+      {whole("refine", mesh.refine, 0, most_refinements), key("grade", mesh.grade),
+       key("slivers", mesh.slivers), positive("scale", mesh.scale), key("stretch", mesh.stretch),
+       key("move_mm", mesh.move_mm), whole("keep_contact_edges", mesh.keep_contact_edges, 0, most),
+       whole("keep_displacement_edges", mesh.keep_displacement_edges, 1, most),
+       whole("keep_force_edges", mesh.keep_force_edges, 0, most), key("polygon", mesh.polygon)});
 }
 
 template <typename Item>

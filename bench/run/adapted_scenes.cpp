@@ -79,7 +79,10 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
       json["materials"][body] = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
   }
   if (!json.contains("wall")) json.emplace("crown_radius_mm", *Scene().crown_radius_mm);
-  json.erase("mesh");
+  if (mesh.is_polygon)
+    json["mesh"] = {{"polygon", true}};
+  else
+    json.erase("mesh");
   json.erase("layers");
   std::set<std::string> groups;
   for (const BoundaryEdge& edge : mesh.boundary) groups.insert(boundary_label(mesh, edge));

@@ -25,6 +25,9 @@
 //
 // where body and contact are the terms of e². This is half of e if the contact terms are small. The
 // mean does not balance the loads.
+//
+// Where the body has curved sides, e is that of the body between their chords, and η² is added for
+// the rest (geometry_error.hpp).
 #pragma once
 
 #include <string>
@@ -36,6 +39,7 @@ namespace airybench {
 
 struct ConstitutiveError {
   double body_Nmm = 0, normal_contact_Nmm = 0, tangential_contact_Nmm = 0;
+  double geometry_Nmm = 0;  // η² of curved sides (geometry_error.hpp); nothing is guaranteed then
   // If a wall ends inside an edge, pressure acts beyond it. This term estimates the energy to
   // remove it. Such a σ is not admissible, so nothing is guaranteed.
   double beyond_wall_Nmm = 0;
@@ -45,16 +49,17 @@ struct ConstitutiveError {
   double relative_of_mean = 0;  // the same for ½(σ + Aε(u))
   double lower_bound_Nmm = 0;   // −Π*(σ) minus an allowance for rounding
   double upper_bound_Nmm = 0;   // Π(u) plus that allowance
-  // e and both bounds hold: no friction, no flaw, and no wall that curves or ends along an edge.
+  // e and both bounds hold: no friction, no flaw, no curved sides, and no wall that curves or ends
+  // along an edge.
   bool guaranteed = false;
   // Why a field is not admissible and e is no error; empty if it is one. Example: u0 pushes an end
   // of Γ_D through the wall, which no displacement of finite energy can do.
   std::string flaw;
 
   double squared_Nmm() const {
-    return body_Nmm + normal_contact_Nmm + tangential_contact_Nmm + beyond_wall_Nmm;
+    return body_Nmm + normal_contact_Nmm + tangential_contact_Nmm + beyond_wall_Nmm + geometry_Nmm;
   }
-  double squared_of_mean_Nmm() const { return squared_Nmm() / 2 - body_Nmm / 4; }
+  double squared_of_mean_Nmm() const { return (squared_Nmm() + geometry_Nmm) / 2 - body_Nmm / 4; }
 };
 
 // ½(σ + Aε(u)).

@@ -16,16 +16,22 @@ namespace {
 
 using Triangle = DisplacementTriangle;
 
-// Adds to w the rigid motion that fits its edge moments to the given ones (least squares).
+// Adds to w the rigid motion that fits its edge moments to the given ones (least squares), those of
+// straight sides if there are any.
 void set_rigid_motion(const Problem& problem, const Triangle& element, int triangle,
                       const Eigen::MatrixXd& edge_moments, Triangle::Displacement& w) {
   const int p = element.degree, k = p - 1;
   const TriangleVertices v = problem.vertices_of(triangle);
   const Eigen::Matrix<double, 2, 3> corner = v.colwise() - v.rowwise().mean();
   const auto& corners = problem.mesh.triangles[triangle];
-  Eigen::Vector2d translation = Eigen::Vector2d::Zero();
+  const auto curves = problem.curves_of(triangle, k);
+  const auto is_curved = [&](int e) { return curves && !(*curves)[e].empty(); };
+  const bool all_curved = is_curved(0) && is_curved(1) && is_curved(2);
+  int count = 0;
+  Eigen::Vector2d missing_sum = Eigen::Vector2d::Zero(), arms = Eigen::Vector2d::Zero();
   double turned = 0, spread = 0;
   for (int e = 0; e < 3; ++e) {
+    if (is_curved(e) && !all_curved) continue;
     const int next = (e + 1) % 3;
     const bool from_low = corners[e] < corners[next];
     const auto given = edge_moments.col(problem.edges.of_triangle[triangle][e]);
@@ -35,16 +41,22 @@ void set_rigid_motion(const Problem& problem, const Triangle& element, int trian
         missing -= element.edge_moments(j, i) * w.col(element.on_edge(e, i));
       const Eigen::Vector2d arm =
           ((k + 1 - j) * corner.col(e) + (j + 1) * corner.col(next)) / (k + 2);
-      translation += missing / (3 * (k + 1));
+      ++count;
+      missing_sum += missing;
+      arms += arm;
       turned += arm.x() * missing.y() - arm.y() * missing.x();
       spread += arm.squaredNorm();
     }
   }
-  const double rotation = turned / spread;
+  const Eigen::Vector2d mean_arm = arms / count, mean = missing_sum / count;
+  const double rotation =
+      (turned - mean_arm.x() * missing_sum.y() + mean_arm.y() * missing_sum.x()) /
+      (spread - count * mean_arm.squaredNorm());
   for (int m = 0; m < element.nodes; ++m) {
     const auto& [a, b, c] = element.exponents[m];
-    const Eigen::Vector2d x = (a * corner.col(0) + b * corner.col(1) + c * corner.col(2)) / p;
-    w.col(m) += translation + rotation * Eigen::Vector2d(-x.y(), x.x());
+    const Eigen::Vector2d x =
+        (a * corner.col(0) + b * corner.col(1) + c * corner.col(2)) / p - mean_arm;
+    w.col(m) += mean + rotation * Eigen::Vector2d(-x.y(), x.x());
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/rough_compliance.hpp"
+#include "assembly/traction_forces.hpp"
 #include "bench/verify/contact_violations.hpp"
 #include "solvers/base/dense_products.hpp"
 #include "solvers/condensation/hybridized.hpp"
@@ -77,9 +78,13 @@ EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
     TriangleVertices v = problem.vertices_of(t);
     v.colwise() -= v.col(0).eval();  // keeps digits far from the origin
     const auto of_triangle = stress[static_cast<std::size_t>(t)];
+    const auto curves = problem.curves_of(t, stress.degree());
     for (int k = 0; k < 3; ++k) {
       const int a = problem.mesh.triangles[t][k], b = problem.mesh.triangles[t][(k + 1) % 3];
-      const ForcesOnEdge force = element_edge_forces(v, of_triangle, k);
+      const ForcesOnEdge force =
+          curves && !(*curves)[k].empty()
+              ? curved_edge_forces(problem.vertices_of(t), of_triangle, k, (*curves)[k])
+              : element_edge_forces(v, of_triangle, k);
       balance.largest = std::max(balance.largest, force.cwiseAbs().maxCoeff());
       auto sum = balance.sum.middleCols(
           static_cast<Eigen::Index>(balance.points) * problem.edges.of_triangle[t][k],
@@ -124,13 +129,11 @@ void note_equilibrium(const DualSystem& system, const Solution& solution,
     }
     const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
                &b = mesh.vertices[mesh.boundary[row].vertices[1]];
-    const EdgeFrame frame = edge_frame(a, b);
     ForcesOnEdge off = on;
+    if (problem.follows_curve(row, degree))
+      resultant += segment_area(mesh.boundary[row].curve) * problem.loads.body_force_N_per_mm3;
     if (role == BoundaryRole::force && problem.loads.traction_MPa) {
-      const Eigen::Vector2d start = problem.loads.traction_MPa(a, frame.normal, row),
-                            end = problem.loads.traction_MPa(b, frame.normal, row);
-      for (int j = 0; j <= degree; ++j)
-        off.col(j) -= frame.length_mm / balance.points * ((degree - j) * start + j * end) / degree;
+      off -= traction_forces<double>(problem, row, degree);
     } else if (role == BoundaryRole::contact) {
       const int m = system.contact.components;
       for (int j = 0; j <= degree; ++j, ++point) {
@@ -139,8 +142,10 @@ void note_equilibrium(const DualSystem& system, const Solution& solution,
         if (m == 2) off.col(j) -= solution.F_C(m * point + 1) * of_law.tangent;
       }
     }
-    if (problem.is_roller(row))  // its normal force is free
+    if (problem.is_roller(row)) {  // its normal force is free
+      const EdgeFrame frame = edge_frame(a, b);
       off = (frame.tangent * (frame.tangent.transpose() * off)).eval();
+    }
     unbalanced = std::max(unbalanced, off.cwiseAbs().maxCoeff());
     resultant += (on - off).rowwise().sum();
   }
@@ -167,7 +172,8 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
 // Of the gap without free motions, where F_C balances the loads on these.
 double work_of_gap(const DualSystem& system, const Eigen::VectorXd& F_C) {
   const Eigen::VectorXd& gap = system.contact.gap;
-  return gap.size() > 0 ? gap.dot(F_C) - work_on_free_motion(*system.problem, system.problem->free)
+  return gap.size() > 0 ? gap.dot(F_C) - work_on_free_motion(*system.problem, system.problem->free,
+                                                             system.degree)
                         : 0;
 }
 

@@ -84,10 +84,10 @@ typename EquilibriumElement<Scalar, k>::Stress particular_of(const HybridInput<S
   return linear_stress<k>(at_vertices);
 }
 
-template <typename Scalar, int k>
-HybridStiffness<Scalar, k> hybrid_stiffness(const HybridInput<Scalar, k>& input, bool loaded) {
-  using Element = EquilibriumElement<Scalar, k>;
-  const Element element = element_of(input);
+// Element: EquilibriumElement, CurvedElement.
+template <typename Element, typename Scalar, int k>
+HybridStiffness<Scalar, k> stiffness_of(const Element& element, const HybridInput<Scalar, k>& input,
+                                        bool loaded) {
   typename Element::Root R = element.root();
   for (int i = 0; i < R.rows(); ++i) to_unknowns(input, &R(i, 0));
   HybridStiffness<Scalar, k> result;
@@ -104,12 +104,9 @@ HybridStiffness<Scalar, k> hybrid_stiffness(const HybridInput<Scalar, k>& input,
   return result;
 }
 
-template <typename Scalar, int k>
-HybridStress<Scalar, k> hybrid_stress(
-    const HybridInput<Scalar, k>& input, bool loaded,
-    typename EquilibriumElement<Scalar, k>::OnEdges displacement) {
-  using Element = EquilibriumElement<Scalar, k>;
-  const Element element = element_of(input);
+template <typename Element, typename Scalar, int k>
+HybridStress<Scalar, k> stress_of(const Element& element, const HybridInput<Scalar, k>& input,
+                                  bool loaded, typename Element::OnEdges displacement) {
   to_walk(input, displacement.data());
   const typename Element::Stress total =
       loaded ? element.stress(displacement, particular_of(input)) : element.stress(displacement);
@@ -123,6 +120,18 @@ HybridStress<Scalar, k> hybrid_stress(
   to_unknowns(input, result.defect);
   result.defect_energy = defect.energy;
   return result;
+}
+
+template <typename Scalar, int k>
+HybridStiffness<Scalar, k> hybrid_stiffness(const HybridInput<Scalar, k>& input, bool loaded) {
+  return stiffness_of(element_of(input), input, loaded);
+}
+
+template <typename Scalar, int k>
+HybridStress<Scalar, k> hybrid_stress(
+    const HybridInput<Scalar, k>& input, bool loaded,
+    typename EquilibriumElement<Scalar, k>::OnEdges displacement) {
+  return stress_of(element_of(input), input, loaded, displacement);
 }
 
 }  // namespace airybench

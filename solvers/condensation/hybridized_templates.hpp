@@ -4,35 +4,29 @@
 #include <functional>
 #include <limits>
 
-#include "assembly/elements/edge_forces.hpp"
+#include "assembly/elements/curved_element.hpp"
+#include "assembly/traction_forces.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
 #include "solvers/condensation/hybridized.hpp"
 
 namespace airybench {
 
-// Adds the prescribed forces on Γ_F to b: the traction is linear, its control values lie on it.
+// Adds the prescribed forces on Γ_F to b.
 template <typename Scalar>
 void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::VectorX<Scalar>& b) {
   if (!problem.loads.traction_MPa) return;
   const int degree = unknown.length() / 2 - 1;
   for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::force) continue;
-    const int edge = problem.edges.of_boundary[row];
-    const auto [start, stop] = problem.mesh.boundary[row].vertices;
-    const EdgeFrame frame = edge_frame(problem.mesh.vertices[start], problem.mesh.vertices[stop]);
-    const auto traction_at = [&](int end) {
-      return problem.loads.traction_MPa(problem.mesh.vertices[problem.edges.vertices[edge][end]],
-                                        frame.normal, static_cast<int>(row));
-    };
-    const Eigen::Vector2d low = traction_at(0), high = traction_at(1);
-    for (int j = 0; j <= degree; ++j) {
-      const Eigen::Vector2d force =
-          frame.length_mm / (degree + 1) * ((degree - j) * low + j * high) / degree;
+    const auto [a, b_end] = problem.mesh.boundary[row].vertices;
+    const Eigen::Matrix2X<Scalar> forces =
+        traction_forces<Scalar>(problem, static_cast<int>(row), degree);
+    for (int j = 0; j <= degree; ++j)
       for (int k = 0; k < 2; ++k)
-        if (const int number = unknown[edge][2 * j + k]; number != prescribed_unknown)
-          b(number) += force(k);
-    }
+        if (const int number = unknown[problem.edges.of_boundary[row]][2 * j + k];
+            number != prescribed_unknown)
+          b(number) += forces(k, a < b_end ? j : degree - j);
   }
 }
 
@@ -102,6 +96,14 @@ void in_batches(const Problem& problem, const HybridKernels<Scalar, k>& kernels,
   }
 }
 
+// What the kernels do, of a triangle with curved sides.
+template <typename Scalar, int k>
+CurvedElement<Scalar, k> curved_element_of(const HybridInput<Scalar, k>& input,
+                                           const Problem::Curves& curves) {
+  return {TriangleVertices(Eigen::Map<const TriangleVertices>(input.vertices)),
+          Eigen::Matrix3d(Eigen::Map<const Eigen::Matrix3d>(input.compliance)), curves};
+}
+
 // K_e's lower triangle, f_e and the independence of an element's stresses.
 template <typename Scalar>
 struct StiffnessOfTriangle {
@@ -132,8 +134,12 @@ void visit_stiffness(const Problem& problem, int degree,
     std::vector<HybridStiffness<Scalar, k>> result(static_cast<std::size_t>(kernels.width));
     in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar, k>* input) {
       kernels.stiffness(input, loaded, result.data());
-      for (int l = 0; l < count; ++l)
+      for (int l = 0; l < count; ++l) {
+        if constexpr (k > 1)
+          if (const auto curves = problem.curves_of(first + l, k))
+            result[l] = stiffness_of(curved_element_of(input[l], *curves), input[l], loaded);
         checked(first + l, {result[l].lower, result[l].load, result[l].independence});
+      }
     });
   });
 }
@@ -197,9 +203,14 @@ void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& sy
       for (int l = 0; l < count; ++l)
         element_displacement<Scalar>(problem, system, u, first + l, local.col(l));
       kernels.stress(input, loaded, local.data(), result.data());
-      for (int l = 0; l < count; ++l)
+      for (int l = 0; l < count; ++l) {
+        if constexpr (k > 1)
+          if (const auto curves = problem.curves_of(first + l, k))
+            result[l] =
+                stress_of(curved_element_of(input[l], *curves), input[l], loaded, local.col(l));
         visit(first + l, StressOfTriangle<Scalar>{result[l].stress, result[l].forces,
                                                   result[l].defect, result[l].defect_energy});
+      }
     });
   });
 }

@@ -5,7 +5,9 @@
 
 #include "assembly/problem/matched_faces.hpp"
 #include "assembly/problem/pose.hpp"
+#include "mesh/arcs.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/small_meshes.hpp"
 #include "tests/support/two_blocks.hpp"
 
 namespace airybench::paired_faces_test {
@@ -36,6 +38,60 @@ TEST(PairedFaces, MatchOneToOneWithSomeVerticesMoved) {
   EXPECT_EQ(pairs, 2 * (13 + 17 - 1 - moved));
   const MatchedFaces again = with_matched_faces(matched.mesh, pressed(0.3));
   EXPECT_EQ(again.changes.inserted + again.changes.moved, 0);
+}
+
+// A hub in a rim, of which the meshes know that they are round: two quarters.
+Mesh hub_and_rim() {
+  Mesh mesh = testing::quarter_ring(9, 2, 2, 5);
+  const Mesh rim = testing::quarter_ring(7, 2, 5, 9);
+  const int before = static_cast<int>(mesh.vertices.size());
+  mesh.body_names.emplace_back("rim");
+  mesh.vertices.insert(mesh.vertices.end(), rim.vertices.begin(), rim.vertices.end());
+  for (std::array<int, 3> triangle : rim.triangles) {
+    for (int& v : triangle) v += before;
+    mesh.triangles.push_back(triangle);
+    mesh.triangle_body.push_back(1);
+  }
+  for (BoundaryEdge edge : rim.boundary) {
+    for (int& v : edge.vertices) v += before;
+    edge.group = boundary_group(mesh, "of rim, " + boundary_label(rim, edge));
+    mesh.boundary.push_back(edge);
+  }
+  for (BoundaryEdge& edge : mesh.boundary) {
+    const std::string label = boundary_label(mesh, edge);
+    if (label == "force:rim" || label.ends_with("of rim, force:hole")) {
+      edge.role = BoundaryRole::contact;
+      edge.group = boundary_group(mesh, label == "force:rim" ? "hub" : "rim");
+    }
+  }
+  validate(mesh);
+  EXPECT_EQ(recognise_arcs(mesh), 2 * (9 + 7));
+  return mesh;
+}
+
+TEST(PairedFaces, RoundOnesMeetOnTheirCircle) {
+  Scene scene;
+  scene.contacts.push_back({.between = {{{"contact:hub"}, {"contact:rim"}}}});
+  const MatchedFaces matched = with_matched_faces(hub_and_rim(), scene);
+  EXPECT_TRUE(matched.changes.has_curves);
+  EXPECT_GT(matched.changes.inserted, 5);
+  EXPECT_NO_THROW(validate(matched.mesh));
+  int pairs = 0;
+  for (std::size_t row = 0; row < matched.edges.size(); ++row)
+    if (const auto& edge = matched.edges[row]) {
+      const BoundaryEdge &own = matched.mesh.boundary[row],
+                         &other = matched.mesh.boundary[static_cast<std::size_t>(edge->opposite)];
+      for (const double s : {0., 0.3, 0.5, 1.}) {
+        EXPECT_NEAR(point_on(matched.mesh, own, s).norm(), 5, 1e-10);
+        EXPECT_LT((point_on(matched.mesh, own, s) - point_on(matched.mesh, other, 1 - s)).norm(),
+                  1e-9);
+      }
+      for (const double gap : edge->gap_mm) EXPECT_NEAR(gap, 0, 1e-10);
+      const Eigen::Vector2d x = matched.mesh.vertices[own.vertices[0]];
+      EXPECT_LT(std::abs(cross(edge->normals.at(0, 1), x)), 1e-9);
+      ++pairs;
+    }
+  EXPECT_EQ(pairs, 2 * (9 + 7 - 1 - matched.changes.moved));
 }
 
 TEST(PairedFaces, WhatCannotBeIsRefusedInALine) {

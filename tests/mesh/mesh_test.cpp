@@ -84,8 +84,8 @@ void add_another(Mesh& mesh) {
   for (const auto& vertex : other.vertices) mesh.vertices.emplace_back(vertex.x() + 5, vertex.y());
   for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + 8, b + 8, c + 8});
   mesh.triangle_body.assign(16, 0);
-  for (const auto& [vertices, role, group] : other.boundary)
-    add_edge(mesh, vertices[0] + 8, vertices[1] + 8, role);
+  for (const BoundaryEdge& edge : other.boundary)
+    add_edge(mesh, edge.vertices[0] + 8, edge.vertices[1] + 8, edge.role);
 }
 
 struct Wrong {

@@ -111,7 +111,8 @@ TEST(ReadMsh, RefusesInOneLineWithFileAndPlace) {
       {"5", "6", ":18: a node's number expected, found '$EndNodes'"},
       {"5", "4", ":17: $EndNodes expected, found '5 0.5 0.5 0'"},
       {last, "8 3 2 21 1 3 4 5 2",
-       ":28: element 8: type 3 (allowed: 1, 2-node line; 2, 3-node triangle)"},
+       ":28: element 8: type 3 (allowed: 1, 8, 26, 27, 28, 62, 63, lines of 2 to 8 nodes; 2, "
+       "3-node triangle)"},
       {last, "8 2 0 3 4 5", ":28: element 8: needs a first tag, its physical group"},
       {"1 1 2 12 1 1 2", "1 1 2 21 1 1 2",
        ":21: element 1: physical group 21 is no boundary role (allowed: displacement, force, "

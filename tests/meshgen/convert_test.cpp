@@ -182,9 +182,56 @@ TEST_F(Convert, HigherOrderIsReducedToCorners) {
     EXPECT_EQ(converted.mesh.vertices.size(), linear.vertices.size());
     EXPECT_EQ(converted.mesh.triangles, linear.triangles);
     EXPECT_EQ(converted.notes,
-              std::vector<std::string>{"elements of higher order are reduced to their corners"});
+              std::vector<std::string>{"of elements of higher order, sides of the boundary keep "
+                                       "their curves; others are chords"});
   }
   EXPECT_TRUE(convert_model(folder_ / "first.geo").notes.empty());
+}
+
+// A plate with a hole of radius 1 about (4, 3) and a wavy top.
+const std::string round_plate = R"(
+Point(1) = {0, 0, 0, 1}; Point(2) = {8, 0, 0, 1}; Point(3) = {8, 6, 0, 1}; Point(4) = {0, 6, 0, 1};
+Point(5) = {6, 6.4, 0, 1}; Point(6) = {4, 5.8, 0, 1}; Point(7) = {2, 6.2, 0, 1};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Spline(3) = {3, 5, 6, 7, 4}; Line(4) = {4, 1};
+Point(8) = {4, 3, 0, 1}; Point(9) = {5, 3, 0, 0.4}; Point(10) = {3, 3, 0, 0.4};
+Circle(5) = {9, 8, 10}; Circle(6) = {10, 8, 9};
+Curve Loop(1) = {1:4}; Curve Loop(2) = {5, 6}; Plane Surface(1) = {1, 2};
+Physical Curve("displacement") = {1}; Physical Curve("force:hole") = {5, 6};
+Physical Curve("force:top") = {3}; Physical Curve("force") = {2, 4}; Physical Surface("plate") = {1};
+)";
+
+TEST_F(Convert, SidesKnowTheCurvesOfTheirModel) {
+  const auto largest_off = [](const Mesh& mesh, std::size_t degree) {
+    double off = 0;
+    std::map<std::string, int> curved;
+    for (const BoundaryEdge& edge : mesh.boundary) {
+      if (edge.curve.is_straight()) continue;
+      ++curved[boundary_label(mesh, edge)];
+      EXPECT_EQ(edge.curve.degree(), degree);
+      if (boundary_label(mesh, edge) == "force:hole")
+        for (const double t : {0.1, 0.5, 0.8})
+          off = std::max(off, std::abs((edge.curve.at(t) - Eigen::Vector2d(4, 3)).norm() - 1));
+    }
+    EXPECT_EQ(curved.size(), 2U);  // the hole and the top
+    return off;
+  };
+  EXPECT_LT(largest_off(convert("plate.geo", round_plate), 7), 1e-9);
+  const Mesh scaled = convert("inches.geo", round_plate + "Mesh.ScalingFactor = 25.4;\n");
+  for (const BoundaryEdge& edge : scaled.boundary) {
+    if (boundary_label(scaled, edge) != "force:hole") continue;
+    EXPECT_NEAR((edge.curve.at(0.4) - 25.4 * Eigen::Vector2d(4, 3)).norm(), 25.4, 1e-8);
+  }
+  // Without geometry, from quadratic elements.
+  testing::write_text(folder_ / "quadratic.geo",
+                      round_plate +
+                          "Mesh.ElementOrder = 2; Mesh.MshFileVersion = 2.2; Mesh 2; Save "
+                          "\"" +
+                          (folder_ / "quadratic.msh").string() + "\";\n");
+  convert_model(folder_ / "quadratic.geo");
+  ASSERT_TRUE(std::filesystem::exists(folder_ / "quadratic.msh"));
+  const double off = largest_off(convert_model(folder_ / "quadratic.msh").mesh, 2);
+  EXPECT_GT(off, 1e-8);
+  EXPECT_LT(off, 1e-3);
 }
 
 TEST_F(Convert, RolesByTheNamesOfTheModel) {

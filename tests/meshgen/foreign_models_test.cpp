@@ -133,7 +133,7 @@ std::vector<Kind> kinds() {
       {"recombined.geo",
        {},
        held_above,
-       {"elements of higher order are reduced to their corners",
+       {"of elements of higher order, sides of the boundary keep their curves; others are chords",
         "9 quadrilaterals are split by the shorter diagonal", free_2_4}},
       {"old.msh",
        {"11=contact:sole", "12=displacement:head", "13=force"},

@@ -135,6 +135,41 @@ Mesh small_ring(int around, int across, double inner_mm, double outer_mm) {
   return mesh;
 }
 
+Mesh quarter_ring(int around, int across, double inner_mm, double outer_mm) {
+  Mesh mesh;
+  mesh.name = "quarter ring";
+  mesh.body_names = {"body"};
+  const auto vertex = [&](int i, int j) { return i * (across + 1) + j; };
+  for (int i = 0; i <= around; ++i)
+    for (int j = 0; j <= across; ++j) {
+      const double angle = std::numbers::pi / 2 * i / around;
+      const double radius = inner_mm * std::pow(outer_mm / inner_mm, 1. * j / across);
+      mesh.vertices.emplace_back(i == around ? 0 : radius * std::cos(angle),
+                                 i == 0 ? 0 : radius * std::sin(angle));
+    }
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const int a = vertex(i, j), b = vertex(i, j + 1), c = vertex(i + 1, j + 1),
+                d = vertex(i + 1, j);
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+  const auto add = [&](int a, int b, BoundaryRole role, const char* name) {
+    mesh.boundary.push_back({{a, b}, role, boundary_group(mesh, name)});
+  };
+  for (int j = 0; j < across; ++j) {
+    add(vertex(0, j), vertex(0, j + 1), BoundaryRole::displacement, "bottom");
+    add(vertex(around, j + 1), vertex(around, j), BoundaryRole::displacement, "left");
+  }
+  for (int i = 0; i < around; ++i) {
+    add(vertex(i + 1, 0), vertex(i, 0), BoundaryRole::force, "hole");
+    add(vertex(i, across), vertex(i + 1, across), BoundaryRole::force, "rim");
+  }
+  mesh.triangle_body.assign(mesh.triangles.size(), 0);
+  validate(mesh);
+  return mesh;
+}
+
 Mesh with_role(Mesh mesh, BoundaryRole before, BoundaryRole after) {
   for (BoundaryEdge& edge : mesh.boundary)
     if (edge.role == before) edge.role = after;

@@ -21,6 +21,10 @@ Mesh small_plate(int n);
 // circles are polygons, a corner of each on the x axis.
 Mesh small_ring(int around, int across, double inner_mm, double outer_mm);
 
+// A quarter of it in x, y ≥ 0: "displacement:bottom" on y = 0, "displacement:left" on x = 0,
+// "force:hole", "force:rim".
+Mesh quarter_ring(int around, int across, double inner_mm, double outer_mm);
+
 // So many of these teeth side by side on a block, as in the documentation's rack.
 Mesh small_rack(int teeth, int nx, int ny);
 

@@ -105,6 +105,7 @@ Mesh ring(int around, BoundaryRole hole, BoundaryRole rim) {
   Mesh mesh = testing::small_ring(around, around / 4, inner, outer);
   for (BoundaryEdge& edge : mesh.boundary)
     edge.role = mesh.boundary_groups[edge.group] == "hole" ? hole : rim;
+  mesh.is_polygon = true;  // the closed forms are prescribed on it
   return mesh;
 }
 

@@ -120,8 +120,10 @@ TEST_F(ModelRuns, NotesAreToldOnStandardError) {
   testing::write_text(bench_.path("part.geo"), square + "Mesh.ElementOrder = 2;\n");
   const testing::CommandResult result = run(part + quick + "--out=o");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(result.err.starts_with(
-      "note: part.geo: elements of higher order are reduced to their corners\n"))
+  EXPECT_TRUE(
+      result.err.starts_with("note: part.geo: of elements of higher order, sides of the boundary "
+                             "keep their curves; others "
+                             "are chords\n"))
       << result.err;
 }
 
@@ -244,7 +246,8 @@ Physical Curve("contact") = {5, 6};
   EXPECT_EQ(planned.code, 0) << planned.err;
 }
 
-// Without its face a round body is the polygon of its mesh, and no refinement makes it round.
+// A round body that is said to be the polygon of its mesh has corners, which no refinement makes
+// round.
 TEST_F(ModelRuns, ANewSceneKnowsArcs) {
   testing::write_text(bench_.path("shoe.geo"), R"(
 Point(1) = {-4, 6, 0, 1}; Point(2) = {-4, 1, 0, 0.3}; Point(3) = {-3, 1, 0, 1};
@@ -268,6 +271,9 @@ Physical Curve("contact:sole") = {2, 3};
   EXPECT_FALSE(corners("shoe.json"));
   Json without = scene;
   without["boundary"][arc].erase("face");
+  testing::write_text(bench_.path("without.json"), without.dump());
+  EXPECT_FALSE(corners("without.json"));  // the mesh knows its curves
+  without["mesh"] = {{"polygon", true}};
   testing::write_text(bench_.path("polygon.json"), without.dump());
   EXPECT_TRUE(corners("polygon.json"));
 }

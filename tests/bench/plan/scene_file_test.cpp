@@ -251,6 +251,8 @@ TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {
   EXPECT_EQ(complaint(R"({"mesh": 3})"), "mesh: 3 (allowed: a JSON object)");
   EXPECT_EQ(complaint(R"({"mesh": {"turn": 3}})").substr(0, 40),
             "mesh: turn: unknown key (allowed: refine");
+  EXPECT_TRUE(scene_of(R"({"mesh": {"polygon": true}})", "scene").mesh.polygon);
+  EXPECT_EQ(complaint(R"({"mesh": {"polygon": 1}})"), "mesh: polygon: 1 (allowed: true, false)");
   EXPECT_EQ(complaint(R"({"mesh": {"refine": 1.5}})"),
             "mesh: refine: 1.5 (allowed: a whole number from 0 to 6)");
   EXPECT_EQ(complaint(R"({"mesh": {"grade": {"ratio": 10}}})"),

@@ -1,0 +1,131 @@
+#include "bench/verify/geometry_error.hpp"
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <optional>
+
+#include "assembly/elements/curved_side.hpp"
+#include "assembly/elements/edge_forces.hpp"
+#include "mesh/supposed_curves.hpp"
+
+namespace airybench {
+namespace {
+
+// What an edge stands for.
+struct TrueSide {
+  const EdgeCurve* curve = nullptr;       // its own
+  std::optional<SupposedCurve> supposed;  // or that of the side it is a part of
+
+  bool is_edge() const { return !curve && !supposed; }
+  Eigen::Vector2d normal_at(double s, const EdgeFrame& chord) const {
+    if (curve) {
+      const Eigen::Vector2d tangent = curve->derivative(s).normalized();
+      return {tangent.y(), -tangent.x()};
+    }
+    const double angle = (1 - s) * supposed->from_rad + s * supposed->to_rad;
+    return std::cos(angle) * chord.normal + std::sin(angle) * chord.tangent;
+  }
+};
+
+// ∂u/∂n of a strain (xx, yy, xy doubled) where u does not change along the edge, in its frame.
+Eigen::Vector2d change_across(const Eigen::Vector3d& strain, const EdgeFrame& edge) {
+  const Eigen::Vector2d of_normal = traction({strain(0), strain(1), strain(2) / 2}, edge.normal);
+  return {edge.normal.dot(of_normal), 2 * edge.tangent.dot(of_normal)};
+}
+
+// Of the side k of a triangle, a row of Mesh::boundary.
+double squared_error(const Problem& problem, const StressField& stress, int triangle, int k,
+                     int row, const TrueSide& side) {
+  constexpr double of_loaded = 1.5, of_held = 0.3;
+  using Points = boost::math::quadrature::gauss<double, 2 * highest_stress_degree + 2>;
+  const BoundaryEdge& edge = problem.mesh.boundary[row];
+  const Eigen::Vector2d &a = problem.mesh.vertices[edge.vertices[0]],
+                        &b = problem.mesh.vertices[edge.vertices[1]];
+  const EdgeFrame chord = edge_frame(a, b);
+  const int degree = stress.degree();
+  std::vector<Eigen::Vector3d> along;
+  for (int j = 0; j <= degree; ++j)
+    along.emplace_back(
+        stress[static_cast<std::size_t>(triangle)].col(k * bernstein_count(degree) + j));
+  const Eigen::Matrix3d& compliance = problem.compliance_of(triangle);
+  const bool is_held = edge.role == BoundaryRole::displacement && !problem.is_roller(row);
+  const auto density = [&](double s) {  // |r|²/E
+    const Eigen::Vector2d normal = side.normal_at(s, chord);
+    const Eigen::Vector3d sigma = bernstein_value(along, s);
+    if (is_held)
+      return change_across(compliance * sigma, chord).squaredNorm() / compliance(0, 0) *
+             (normal - chord.normal).squaredNorm();
+    Eigen::Vector2d r = -traction(sigma, normal - chord.normal);
+    if (edge.role == BoundaryRole::force && problem.loads.traction_MPa) {
+      const Eigen::Vector2d x = (1 - s) * a + s * b;
+      r += problem.loads.traction_MPa(x, normal, row) -
+           problem.loads.traction_MPa(x, chord.normal, row);
+    }
+    return r.squaredNorm() * compliance(0, 0);
+  };
+  const double side_mm = side.supposed ? side.supposed->side_mm : chord.length_mm;
+  return (is_held ? of_held : of_loaded) * side_mm * chord.length_mm *
+         Points::integrate(density, 0., 1.);
+}
+
+// The largest of the triangle's 1/sin³ of an angle: its smallest one's.
+double steepness(const TriangleVertices& v) {
+  double sine = 1;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector2d a = v.col((k + 1) % 3) - v.col(k), b = v.col((k + 2) % 3) - v.col(k);
+    sine = std::min(sine, (a.x() * b.y() - a.y() * b.x()) / (a.norm() * b.norm()));
+  }
+  return 1 / (sine * sine * sine);
+}
+
+double squared_error_on_curve(const Problem& problem, const StressField& stress, int triangle,
+                              int k, int row) {
+  const int degree = stress.degree();
+  const double constant = std::exp2(1 - degree);
+  const TriangleVertices v = problem.vertices_of(triangle);
+  const Eigen::Vector2d centroid = v.rowwise().mean();
+  const CurvedSide<double> side(problem.mesh.boundary[row].curve.points_mm, degree);
+  const auto of_third = stress[static_cast<std::size_t>(triangle)].middleCols(
+      k * bernstein_count(degree), bernstein_count(degree));
+  double sum = 0;  // ∫ |r|² ds
+  for (int q = 0; q < CurvedSide<double>::points; ++q) {
+    const double length = side.normal(q).norm();
+    const Eigen::Vector2d n = side.normal(q) / length;
+    Eigen::Vector2d r = -traction(of_third * side.bernstein(centroid, q, 1), n);
+    if (problem.loads.traction_MPa) r += problem.loads.traction_MPa(side.at(q), n, row);
+    sum += CurvedSide<double>::weight(q) * length * r.squaredNorm();
+  }
+  return constant * steepness(v) * (v.col((k + 1) % 3) - v.col(k)).norm() *
+         problem.compliance_of(triangle)(0, 0) * sum;
+}
+
+}  // namespace
+
+std::vector<double> geometry_error(const Problem& problem, const StressField& stress) {
+  std::vector<double> squared(stress.size(), 0);
+  if (stress.degree() > 1)
+    for (const Problem::RoundTriangle& round : problem.round)
+      for (int k = 0; k < 3; ++k)
+        if (round.rows[k] != Problem::no_row)
+          squared[round.triangle] +=
+              squared_error_on_curve(problem, stress, round.triangle, k, round.rows[k]);
+  const auto& boundary = problem.mesh.boundary;
+  std::vector<TrueSide> side(boundary.size());
+  for (std::size_t row = 0; row < boundary.size(); ++row)
+    if (!boundary[row].curve.is_straight() &&
+        !problem.follows_curve(static_cast<int>(row), stress.degree()))
+      side[row].curve = &boundary[row].curve;
+  for (const SupposedCurve& curve : supposed_curves(problem.mesh))
+    side[static_cast<std::size_t>(curve.boundary_row)].supposed = curve;
+  std::vector<int> row_of_edge(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);
+  for (std::size_t row = 0; row < boundary.size(); ++row)
+    if (!side[row].is_edge()) row_of_edge[problem.edges.of_boundary[row]] = static_cast<int>(row);
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (const int row = row_of_edge[problem.edges.of_triangle[t][k]]; row != Problem::no_row)
+        squared[t] +=
+            squared_error(problem, stress, t, k, row, side[static_cast<std::size_t>(row)]);
+  return squared;
+}
+
+}  // namespace airybench

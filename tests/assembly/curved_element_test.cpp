@@ -1,0 +1,137 @@
+#include "assembly/elements/curved_element.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <numbers>
+
+#include "assembly/elements/elasticity.hpp"
+#include "mesh/edge_curve.hpp"
+#include "support/wide.hpp"
+
+namespace airybench::curved_element_test {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+const Eigen::Matrix3d steel = compliance({200000, 0.3}, Plane::strain);
+
+TriangleVertices triangle() {
+  TriangleVertices v;
+  v << 1, 3, 1.6, 0.5, 1, 2.7;
+  return v;
+}
+
+// An arc from a to b that turns by this, to the right of its chord where it is positive.
+std::vector<Point> arc(const Point& a, const Point& b, double turn_rad) {
+  const Point chord = b - a;
+  std::vector<Point> points;
+  const double radius = chord.norm() / (2 * std::sin(turn_rad / 2));
+  const Point along = chord.normalized(), right(along.y(), -along.x());
+  for (int i = 0; i <= EdgeCurve::max_degree; ++i) {
+    const double angle = turn_rad * (static_cast<double>(i) / EdgeCurve::max_degree - 0.5);
+    points.emplace_back(
+        (a + b) / 2 +
+        radius * (std::sin(angle) * along + (std::cos(angle) - std::cos(turn_rad / 2)) * right));
+  }
+  points.front() = a;
+  points.back() = b;
+  return EdgeCurve{points}.points_mm;
+}
+
+template <typename Element>
+auto stiffness_of(const Element& element) {
+  using Scalar = std::decay_t<decltype(element.independence())>;
+  constexpr int size = Element::Degree::size;
+  std::vector<Scalar> lower(size * (size + 1) / 2);
+  Element::square(element.root(), lower.data());
+  Eigen::MatrixX<Scalar> K(size, size);
+  const Scalar* entry = lower.data();
+  for (int j = 0; j < size; ++j)
+    for (int i = j; i < size; ++i) K(i, j) = K(j, i) = *entry++;
+  return K;
+}
+
+// Moments of a displacement that is linear along the chords.
+template <int k>
+Eigen::VectorXd moments_of(const TriangleVertices& v, const std::function<Point(const Point&)>& u) {
+  Eigen::VectorXd moments(6 * (k + 1));
+  for (int e = 0; e < 3; ++e)
+    for (int j = 0; j <= k; ++j) {
+      const double s = (j + 1.) / (k + 2);
+      const Point at = (1 - s) * v.col(e) + s * v.col((e + 1) % 3);
+      moments.segment<2>(2 * ((k + 1) * e + j)) = u(at);
+    }
+  return moments;
+}
+
+std::vector<std::function<Point(const Point&)>> rigid_motions() {
+  return {[](const Point&) { return Point(1, 0); }, [](const Point&) { return Point(0, 1); },
+          [](const Point& x) { return Point(-x.y(), x.x()); }};
+}
+
+template <int k>
+void check_degree() {
+  SCOPED_TRACE(k);
+  const TriangleVertices v = triangle();
+  using Element = CurvedElement<double, k>;
+  const Eigen::MatrixXd straight = stiffness_of(EquilibriumElement<double, k>(v, steel)),
+                        of_chords = stiffness_of(Element(v, steel, {}));
+  EXPECT_LT((straight - of_chords).norm(), 1e-11 * straight.norm());
+  for (const double turn : {0.4, -0.4}) {
+    const std::vector<Point> first = arc(v.col(0), v.col(1), turn),
+                             last = arc(v.col(2), v.col(0), turn / 2);
+    const Element element(v, steel, {first, {}, last});
+    const Eigen::MatrixXd K = stiffness_of(element);
+    EXPECT_GT((K - straight).norm(), 1e-3 * straight.norm());
+    const Eigen::VectorXd eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
+    EXPECT_LT(eigenvalues.head<3>().cwiseAbs().maxCoeff(), 1e-11 * eigenvalues.tail<1>()(0));
+    EXPECT_GT(eigenvalues(3), 1e-5 * eigenvalues.tail<1>()(0));
+    for (const auto& motion : rigid_motions()) {
+      const Eigen::VectorXd u = moments_of<k>(v, motion);
+      EXPECT_LT((K * u).norm(), 1e-11 * K.norm() * u.norm());
+      const auto stress = element.stress(u);
+      EXPECT_LT(stress.norm(), 1e-11 * K.norm() * u.norm());
+    }
+    // Forces of any stress that it can have are in balance.
+    const auto stress = element.stress(Eigen::VectorXd::LinSpaced(Element::Degree::size, -1, 2));
+    const auto forces = element.edge_forces(stress);
+    for (const auto& motion : rigid_motions())
+      EXPECT_NEAR(forces.dot(moments_of<k>(v, motion)), 0, 1e-11 * forces.norm());
+    // ∫ σ:C:σ is the work of its edges.
+    const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(Element::Degree::size, -1, 2);
+    EXPECT_NEAR(element.energy(stress, stress), u.dot(K * u), 1e-9 * u.dot(K * u));
+    // The same in long double.
+    const Eigen::MatrixXd wide =
+        stiffness_of(CurvedElement<Wide, k>(v, steel, {first, {}, last})).template cast<double>();
+    EXPECT_LT((wide - K).norm(), 1e-11 * K.norm());
+  }
+}
+
+TEST(CurvedElement, OfEveryDegreeHasRigidMotionsAndNoOthers) {
+  check_degree<2>();
+  check_degree<3>();
+  check_degree<4>();
+}
+
+TEST(CurvedSide, MeasuresArcs) {
+  const double turn = 0.6;
+  const Point a(1, 0.5), b(3, 1), across(1.6, 2.7);
+  const double radius = (b - a).norm() / (2 * std::sin(turn / 2)),
+               segment = radius * radius * (turn - std::sin(turn)) / 2;
+  const std::vector<Point> control = arc(a, b, turn);
+  const CurvedSide<double> side(control, 2);
+  double length = 0;
+  for (int q = 0; q < CurvedSide<double>::points; ++q)
+    length += CurvedSide<double>::weight(q) * side.normal(q).norm();
+  EXPECT_NEAR(length, radius * turn, 1e-10);
+  const Point centroid = (a + b + across) / 3;
+  const Eigen::MatrixXd W = side.mass_root(centroid);
+  const double third = ((b - a).x() * (centroid - a).y() - (b - a).y() * (centroid - a).x()) / 2;
+  EXPECT_NEAR((W * Eigen::VectorXd::Ones(6)).squaredNorm(), third + segment, 1e-9);
+  EXPECT_NEAR(segment_area({control}), segment, 1e-9);
+}
+
+}  // namespace
+}  // namespace airybench::curved_element_test

@@ -1,0 +1,132 @@
+// The total error of round bodies against closed forms: chords count.
+#include "bench/verify/geometry_error.hpp"
+
+#include <cmath>
+
+#include "assembly/elements/elasticity.hpp"
+#include "mesh/arcs.hpp"
+#include "mesh/refinement.hpp"
+#include "tests/bench/verify/solved.hpp"
+#include "tests/bench/verify/true_error.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::geometry_error_test {
+namespace {
+
+using testing::small_ring;
+using Point = Eigen::Vector2d;
+using testing::ExactStress, testing::true_error;
+
+constexpr double inner = 1, outer = 3;  // mm
+
+Mesh round_ring(int around, int refinements = 0) {
+  Mesh mesh = small_ring(around, 3, inner, outer);
+  EXPECT_EQ(recognise_arcs(mesh), 2 * around);
+  for (int k = 0; k < refinements; ++k) mesh = uniformly_refined(mesh);
+  return mesh;
+}
+
+// Pressed by 10 MPa on one circle, held on the other (Lamé): σ_rr, σ_tt = A ∓ B/r², and u = 0 where
+// B = −(1 − 2ν) A r².
+struct PressedRing {
+  double poisson = 0.3;
+  bool is_hole_held = false;
+
+  Scene scene() const {
+    Scene scene;
+    scene.material.poisson = poisson;
+    scene.displacement_mm = {0, 0};
+    scene.boundary[is_hole_held ? "force:rim" : "force:hole"].pressure_MPa =
+        LinearValue<double>{{10, 10}};
+    return scene;
+  }
+  Mesh on(Mesh mesh) const {
+    if (is_hole_held)
+      for (BoundaryEdge& edge : mesh.boundary)
+        edge.role =
+            edge.role == BoundaryRole::force ? BoundaryRole::displacement : BoundaryRole::force;
+    return mesh;
+  }
+  ExactStress stress() const {
+    const double held = is_hole_held ? inner : outer, pressed = is_hole_held ? outer : inner,
+                 ratio = (1 - 2 * poisson) * held * held,
+                 A = -10 / (1 + ratio / (pressed * pressed)), B = -ratio * A;
+    return [=](const Point& x) {
+      return testing::from_polar(A - B / x.squaredNorm(), A + B / x.squaredNorm(), 0, x);
+    };
+  }
+};
+
+struct Judged {
+  double truth, total, without_geometry;
+  bool guaranteed;
+};
+Judged judged(const Mesh& mesh, int degree, const PressedRing& ring = {}) {
+  const testing::Solved solved(ring.scene(), ring.on(mesh), degree);
+  const ConstitutiveError error = solved.error();
+  EXPECT_EQ(error.flaw, "");
+  const double share = 1 - error.geometry_Nmm / error.squared_Nmm();
+  return {true_error(*solved.system.problem, solved.hybrid.stress, ring.stress()), error.relative,
+          error.relative * std::sqrt(share), error.guaranteed};
+}
+
+TEST(GeometryError, IsWhatTheChordsOfRoundSidesCost) {
+  double worst_without = 1;
+  for (const bool is_hole_held : {false, true})
+    for (const double poisson : {0.3, 0.4999})
+      for (int degree = 1; degree <= highest_stress_degree; ++degree)
+        for (const int refinements : {0, 1}) {
+          const Judged own = judged(round_ring(20, refinements), degree, {poisson, is_hole_held});
+          SCOPED_TRACE(::testing::Message() << degree << " " << poisson << " " << is_hole_held);
+          EXPECT_GT(own.total, own.truth);
+          EXPECT_LT(own.total, (poisson < 0.4 ? 3 : 5) * own.truth);
+          EXPECT_FALSE(own.guaranteed);
+          worst_without = std::min(worst_without, own.without_geometry / own.truth);
+        }
+  EXPECT_LT(worst_without, 0.9);  // e alone says too little
+}
+
+TEST(GeometryError, FallsAsChordsGetShorter) {
+  for (int degree = 1; degree <= highest_stress_degree; ++degree) {
+    const Judged coarse = judged(round_ring(20), degree), fine = judged(round_ring(20, 1), degree);
+    EXPECT_LT(fine.total, coarse.total / 2.3) << degree;  // order 1.5: 2.8
+    EXPECT_LT(fine.truth, coarse.truth / 2.3) << degree;
+  }
+}
+
+// A mesh that does not know its curves stays a polygon however fine it becomes, and says so.
+TEST(GeometryError, OfPolygonsDoesNotVanish) {
+  Mesh mesh = small_ring(20, 3, inner, outer);
+  const Judged coarse = judged(mesh, 2);
+  for (int k = 0; k < 2; ++k) mesh = uniformly_refined(mesh);
+  const Judged fine = judged(mesh, 2);
+  EXPECT_GT(fine.total, fine.truth);
+  EXPECT_GT(fine.total, coarse.total / 2);
+  EXPECT_LT(fine.without_geometry, fine.truth / 2);
+}
+
+TEST(GeometryError, IsZeroOfStraightSides) {
+  const testing::Solved solved(Scene(), testing::small_tooth(4, 4), 2);
+  EXPECT_EQ(solved.error().geometry_Nmm, 0);
+  for (const double part : geometry_error(*solved.system.problem, solved.hybrid.stress))
+    EXPECT_EQ(part, 0);
+}
+
+// Under the same pressure all around nothing depends on the direction of the sides.
+TEST(GeometryError, IsZeroUnderPressureAllAround) {
+  Mesh mesh = testing::with_role(round_ring(20), BoundaryRole::displacement, BoundaryRole::force);
+  Scene scene = PressedRing().scene();
+  scene.boundary["force:rim"].pressure_MPa = LinearValue<double>{{10, 10}};
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (boundary_label(mesh, edge) == "force:rim") {
+      edge.role = BoundaryRole::displacement;  // something must hold the body: one edge
+      edge.group = BoundaryEdge::no_group;
+      edge.curve = {};
+      break;
+    }
+  const testing::Solved solved(scene, mesh, 2);
+  EXPECT_LT(solved.error().geometry_Nmm, 0.05 * solved.error().squared_Nmm());
+}
+
+}  // namespace
+}  // namespace airybench::geometry_error_test

@@ -1,0 +1,157 @@
+// Stresses of degree 2 and more follow curved force edges: closed forms, with the order k + 1.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "assembly/elements/elasticity.hpp"
+#include "bench/verify/reference.hpp"
+#include "bench/verify/verifier.hpp"
+#include "mesh/arcs.hpp"
+#include "tests/bench/verify/solved.hpp"
+#include "tests/bench/verify/true_error.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::round_sides_test {
+namespace {
+
+using testing::ExactStress, testing::from_polar, testing::true_error, testing::value_at;
+using Point = Eigen::Vector2d;
+
+// Tension 1 MPa along x far away, a free hole of radius 1 mm (Kirsch 1898).
+Eigen::Vector3d stretched(const Point& x) {
+  const double q = 1 / x.squaredNorm(), two = 2 * std::atan2(x.y(), x.x());
+  return from_polar((1 - q + (1 - 4 * q + 3 * q * q) * std::cos(two)) / 2,
+                    (1 + q - (1 + 3 * q * q) * std::cos(two)) / 2,
+                    -(1 + 2 * q - 3 * q * q) * std::sin(two) / 2, x);
+}
+
+// A pressure of 1 MPa in the hole of a ring from 1 to 2 mm, its rim free (Lamé).
+Eigen::Vector3d pressed(const Point& x) {
+  const double q = 4 / x.squaredNorm();
+  return from_polar((1 - q) / 3, (1 + q) / 3, 0, x);
+}
+
+// With the tractions of the exact stress on both circles, rollers on the straight sides.
+Problem quarter(int around, int across, double outer_mm, const ExactStress& exact, double poisson) {
+  Mesh mesh = testing::quarter_ring(around, across, 1, outer_mm);
+  EXPECT_EQ(recognise_arcs(mesh), 2 * around);
+  Loads loads;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    loads.rollers.push_back(edge.role == BoundaryRole::displacement);
+  loads.traction_MPa = [exact](const Point& x, const Point& n, int) {
+    return traction(exact(x), n);
+  };
+  return make_problem(std::move(mesh), {compliance({1000, poisson}, Plane::strain)},
+                      std::move(loads), 0);
+}
+
+struct Judged {
+  double truth, total;
+  double of_hole;  // the worst hoop stress there is off by this
+};
+
+Judged judged(const Problem& problem, int degree, const ExactStress& exact) {
+  const testing::Solved solved(problem, degree);
+  const ConstitutiveError error = solved.error();
+  EXPECT_EQ(error.flaw, "");
+  Judged result{true_error(*solved.system.problem, solved.hybrid.stress, exact), error.relative, 0};
+  for (const Problem::RoundTriangle& round : problem.round)
+    for (int k = 0; k < 3; ++k) {
+      const int row = round.rows[k];
+      if (row == Problem::no_row ||
+          boundary_label(problem.mesh, problem.mesh.boundary[row]) != "force:hole")
+        continue;
+      for (const double s : {0., 0.25, 0.5, 1.}) {
+        const Point x = problem.mesh.boundary[row].curve.at(s);
+        const TriangleVertices v = problem.vertices_of(round.triangle);
+        const Point centroid = v.rowwise().mean(), a = v.col(k), b = v.col((k + 1) % 3);
+        Eigen::Matrix3d corners;
+        corners << a, b, centroid, 1, 1, 1;
+        const Eigen::Vector3d at = corners.inverse() * Eigen::Vector3d(x.x(), x.y(), 1);
+        const Point t(-x.y(), x.x());
+        const auto hoop = [&](const Eigen::Vector3d& stress) { return t.dot(traction(stress, t)); };
+        result.of_hole = std::max(
+            result.of_hole,
+            std::abs(hoop(value_at(solved.hybrid.stress, round.triangle, k, at(1), at(2))) -
+                     hoop(exact(x))));
+      }
+    }
+  return result;
+}
+
+void expect_order(const ExactStress& exact, double outer_mm, int across, double poisson) {
+  for (int degree = 2; degree <= highest_stress_degree; ++degree) {
+    SCOPED_TRACE(::testing::Message() << "degree " << degree << ", Poisson " << poisson);
+    const Judged coarse = judged(quarter(4, across, outer_mm, exact, poisson), degree, exact),
+                 fine = judged(quarter(8, 2 * across, outer_mm, exact, poisson), degree, exact);
+    const double order = std::log2(coarse.truth / fine.truth),
+                 of_hole = std::log2(coarse.of_hole / fine.of_hole);
+    EXPECT_GT(order, degree + 0.7);
+    EXPECT_GT(of_hole, degree + 0.5);
+    for (const Judged& own : {coarse, fine}) {
+      EXPECT_GT(own.total, own.truth);
+      EXPECT_LT(own.total, (poisson < 0.4 ? 2.5 : 3) * own.truth);
+    }
+  }
+}
+
+TEST(RoundSides, ARingUnderPressureIsOfFullOrder) {
+  expect_order(pressed, 2, 2, 0.3);
+  expect_order(pressed, 2, 2, 0.4999);
+}
+
+TEST(RoundSides, AHoleUnderTensionIsOfFullOrder) { expect_order(stretched, 4, 4, 0.3); }
+
+TEST(RoundSides, TheLargestStressAtAHoleIsThatOfTheRoundOne) {
+  const Judged own = judged(quarter(16, 16, 4, stretched, 0.3), 2, stretched);
+  EXPECT_LT(own.of_hole, 0.01);  // of 3 MPa
+  EXPECT_LT(own.truth, 3e-4);
+}
+
+TEST(RoundSides, AreInBalanceUnderTheirOwnWeightToo) {
+  for (int degree = 2; degree <= highest_stress_degree; ++degree) {
+    Problem problem = quarter(4, 3, 3, pressed, 0.3);
+    problem.loads.body_force_N_per_mm3 = {3, -2};
+    const testing::Solved solved(problem, degree);
+    const Verification v = verify(solved.system, solved.hybrid, nullptr);
+    EXPECT_LT(*v.equilibrium_residual, 1e-11) << degree;
+    EXPECT_LT(*v.unbalanced_N, 1e-10) << degree;
+  }
+}
+
+// A ring that only its socket holds, under its own weight and a pull in its hole.
+TEST(RoundSides, OfAFreeBodyAreInBalanceToo) {
+  Mesh mesh = testing::with_role(testing::small_ring(20, 3, 1, 3), BoundaryRole::displacement,
+                                 BoundaryRole::contact);
+  EXPECT_EQ(recognise_arcs(mesh), 40);
+  Scene scene;
+  scene.friction = 0.3;
+  scene.crown_radius_mm.reset();
+  scene.displacement_mm = {0, 0};
+  scene.body_force_N_per_mm3 = {0, -2};
+  scene.boundary["force:hole"].traction_MPa = LinearValue<Point>{{Point(1, -3), Point(1, -3)}};
+  scene.boundary["contact:rim"].contact.wall =
+      CircularWall{{0, 0}, 3, CircularWall::Bodies::inside};
+  for (int degree = 1; degree <= highest_stress_degree; ++degree) {
+    const testing::Solved solved(scene, mesh, degree);
+    const Verification v = verify(solved.system, solved.hybrid, nullptr);
+    EXPECT_LT(*v.equilibrium_residual, 1e-10) << degree;
+    EXPECT_LT(*v.unbalanced_N, 1e-9) << degree;
+  }
+}
+
+TEST(RoundSides, TheReferenceFollowsThemToo) {
+  for (int degree = 1; degree <= highest_stress_degree; ++degree) {
+    const testing::Solved solved(quarter(6, 4, 4, stretched, 0.3), degree);
+    const auto reference = compute_reference(solved.system);
+    const Verification v = verify(solved.system, solved.hybrid, &reference);
+    EXPECT_LT(*v.error_stress, 1e-11) << degree;
+    EXPECT_LT(*v.equilibrium_residual, 1e-11) << degree;
+    EXPECT_LT(*verify(solved.system, solved.hybrid, nullptr).stress_of_moments_off, 1e-11)
+        << degree;
+  }
+}
+
+}  // namespace
+}  // namespace airybench::round_sides_test
