@@ -12,6 +12,7 @@
 #include "mesh/refinement.hpp"
 #include "mesh/supposed_curves.hpp"
 #include "mesh/transform.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::curved_sides_test {
@@ -195,9 +196,9 @@ TEST(CurvedSides, AreForgottenWhereAPolygonIsMeant) {
   EXPECT_NEAR(area_of(mesh), area_of(ring()), 1e-12);
 }
 
-// A hole of twelve sides; on one of them a triangle so thin that its arc passes behind the spoke's
-// end, but in front of the vertex across.
-TEST(CurvedSides, OfThinTrianglesAreCut) {
+// A ring whose hole has twelve sides, with a vertex put into the triangle on one of them, so far
+// from the middle of its chord.
+Mesh ring_with_thin_triangle(double from_chord_mm) {
   Mesh mesh = small_ring(12, 2, 1, 3);
   int hole = 0;
   while (boundary_label(mesh, mesh.boundary[hole]) != "force:hole") ++hole;
@@ -211,7 +212,12 @@ TEST(CurvedSides, OfThinTrianglesAreCut) {
         k = side;
       }
   const Point middle = (mesh.vertices[a] + mesh.vertices[b]) / 2;
-  split_at_point(mesh, t, k, middle * (1 + 0.07));
+  split_at_point(mesh, t, k, middle + from_chord_mm * middle.normalized());
+  return mesh;
+}
+
+TEST(CurvedSides, OfThinTrianglesAreCut) {
+  Mesh mesh = ring_with_thin_triangle(0.12);
   const std::size_t before = mesh.triangles.size();
   const std::vector<std::string> notes = mend(mesh);
   validate(mesh);
@@ -220,6 +226,44 @@ TEST(CurvedSides, OfThinTrianglesAreCut) {
   EXPECT_TRUE(std::ranges::any_of(notes, [](const std::string& note) {
     return note.starts_with("triangles too thin for their curved edge");
   }));
+}
+
+// The arc would leave its triangle at the start of a spoke; only the rim is round then.
+TEST(CurvedSides, ThatFitNoTriangleStayChords) {
+  Mesh mesh = ring_with_thin_triangle(0.065);
+  const std::vector<std::string> notes = mend(mesh);
+  EXPECT_EQ(curved_edges(mesh), 12);
+  ASSERT_EQ(notes.size(), 3U);
+  EXPECT_TRUE(notes[0].ends_with("taken for arcs: 12")) << notes[0];
+  EXPECT_TRUE(notes[1].starts_with("curved sides, which refinement follows: displacement:rim"))
+      << notes[1];
+  EXPECT_NE(notes[2].find("they stay polygons"), std::string::npos) << notes[2];
+  EXPECT_NE(notes[2].find("force:hole (12 edges"), std::string::npos) << notes[2];
+}
+
+TEST(CurvedSides, ThatCannotBeAreRefused) {
+  const auto complaint = [](std::vector<Point> inside) {
+    Mesh mesh = small_block(2, 2, 0);
+    mesh.name = "block";
+    BoundaryEdge& edge = mesh.boundary[0];
+    const Point a = mesh.vertices[edge.vertices[0]], b = mesh.vertices[edge.vertices[1]];
+    const Point along = b - a, left(-along.y(), along.x());
+    edge.curve.points_mm = {a};
+    for (const Point& p : inside)
+      edge.curve.points_mm.emplace_back(a + p.x() * along + p.y() * left);
+    edge.curve.points_mm.push_back(b);
+    return testing::complaint_of<MeshError>([&] { mend(mesh); });
+  };
+  for (const std::vector<Point>& inside : {std::vector{Point(0.5, 5)},
+                                           {Point(0.5, 1e300)},
+                                           {Point(300, -0.1)},
+                                           {Point(1.3, 0.4), Point(0.5, 0.9), Point(-0.3, 0.4)}}) {
+    const std::string text = complaint(inside);
+    EXPECT_TRUE(text.starts_with("block: boundary edge ")) << text;
+    EXPECT_NE(text.find("its curve does not stay on its side of vertex "), text.npos) << text;
+  }
+  EXPECT_EQ(complaint({Point(0.5, -0.2)}), "no complaint");
+  EXPECT_EQ(complaint({Point(0.5, 0.1)}), "no complaint");
 }
 
 TEST(CurvedSides, AreWrittenAndRead) {
