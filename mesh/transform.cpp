@@ -161,17 +161,18 @@ Mesh transformed(Mesh mesh, const MeshTransform& transform) {
     for (BoundaryEdge& edge : mesh.boundary)
       for (Eigen::Vector2d& x : edge.curve.points_mm) x = moved(x);
   };
-  using Point = Eigen::Vector2d;
   if (transform.scale != 1) {
-    move_all([&](const Point& x) -> Point { return transform.scale * x; });
+    move_all([&](const Eigen::Vector2d& x) -> Eigen::Vector2d { return transform.scale * x; });
     check_after(mesh, "scale", transform.scale);
   }
   if (transform.stretch != Eigen::Vector2d(1, 1)) {
-    move_all([&](const Point& x) -> Point { return x.cwiseProduct(transform.stretch); });
+    move_all([&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
+      return x.cwiseProduct(transform.stretch);
+    });
     check_after(mesh, "stretch", shown(transform.stretch));
   }
   if (!transform.move_mm.isZero(0)) {
-    move_all([&](const Point& x) -> Point { return x + transform.move_mm; });
+    move_all([&](const Eigen::Vector2d& x) -> Eigen::Vector2d { return x + transform.move_mm; });
     check_after(mesh, "move_mm", shown(transform.move_mm));
   }
   using enum BoundaryRole;
