@@ -160,7 +160,7 @@ TEST_F(AdaptCommand, AppendingKeepsTheMeshesOfEarlierRecords) {
   }
   for (const Json& record : before)
     EXPECT_EQ(sha256_of_file(bench_.path("o") / record["mesh_file"].get<std::string>()),
-              record["mesh_sha256"]);
+              record["mesh_sha256"].get<std::string>());
   write_scene("0.3");
   EXPECT_EQ(bench("--mesh=Mesh0 --scene=s.json --method=P2 --repetitions=1 --out=o --adapt=1000 "
                   "--append"),
