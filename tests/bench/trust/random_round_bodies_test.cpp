@@ -10,6 +10,7 @@
 #include "tests/bench/verify/true_error.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/kolosov_fields.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::random_round_bodies_test {
@@ -67,7 +68,7 @@ Problem round_body(Dice& dice, const KolosovField& field) {
 }
 
 TEST(RandomRoundBodies, TotalErrorsAreAboveTheTrueOnesAndNotByMuch) {
-  constexpr int bodies = 50;
+  constexpr int bodies = testing::sanitized ? 10 : 50;
   Dice dice(73);
   std::array<std::vector<double>, highest_stress_degree> ratio;
   for (int body = 0; body < bodies; ++body) {
