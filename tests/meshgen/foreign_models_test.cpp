@@ -8,6 +8,7 @@
 
 #include "mesh/msh_format.hpp"
 #include "meshgen/convert.hpp"
+#include "meshgen/gmsh_mesher.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
@@ -53,6 +54,9 @@ TEST_P(ForeignModels, BecomeMeshes) {
     EXPECT_NEAR(lengths.at(label), length, 1e-6) << label;
   }
   EXPECT_EQ(converted.mesh.body_names, kind.bodies);
+  const bool has_flaw_of_old_gmsh = !kind.notes.empty() && kind.notes[0] == "triangle of nodes ";
+  if (has_flaw_of_old_gmsh && !version_of_gmsh().starts_with("4.8.") && converted.notes.empty())
+    return;
   ASSERT_EQ(converted.notes.size(), kind.notes.size());
   for (std::size_t k = 0; k < kind.notes.size(); ++k)
     EXPECT_EQ(converted.notes[k].substr(0, kind.notes[k].size()), kind.notes[k]);
