@@ -1,11 +1,9 @@
 #include "mesh/arcs.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <span>
 
 #include "mesh/circle.hpp"
 #include "mesh/coordinate_rounding.hpp"

@@ -2,6 +2,7 @@
 
 #include <gmsh.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -40,6 +41,35 @@ std::vector<Eigen::Vector3d> CurveGeometry::between(std::size_t node, std::size_
   std::vector<Eigen::Vector3d> points;
   for (std::size_t at = 0; at + 2 < xyz.size(); at += 3) points.emplace_back(&xyz[at]);
   return points;
+}
+
+// A triangle of degree p has 3 (p − 1) nodes in its sides and (p − 1)(p − 2)/2 in its middle, a
+// quadrilateral 4 (p − 1) and (p − 1)², or none there.
+void SideNodes::add_element(Span corners, Span others) {
+  const std::size_t sides = corners.size();
+  for (std::size_t of_side = 1; of_side * sides <= others.size(); ++of_side) {
+    const std::size_t middle = sides == 3 ? of_side * (of_side - 1) / 2 : of_side * of_side,
+                      left = others.size() - sides * of_side;
+    if (left != middle && left != 0) continue;
+    for (std::size_t k = 0; k < sides; ++k)
+      add_side(corners[k], corners[(k + 1) % sides], others.subspan(k * of_side, of_side));
+    return;
+  }
+}
+
+void SideNodes::add_side(std::size_t from, std::size_t to, Span inside) {
+  if (inside.empty() || inside.size() >= EdgeCurve::max_degree) return;
+  std::vector<std::size_t>& nodes = inside_[{std::min(from, to), std::max(from, to)}];
+  nodes.assign(inside.begin(), inside.end());
+  if (from > to) std::ranges::reverse(nodes);
+}
+
+std::vector<std::size_t> SideNodes::between(std::size_t from, std::size_t to) const {
+  const auto found = inside_.find({std::min(from, to), std::max(from, to)});
+  if (found == inside_.end()) return {};
+  std::vector<std::size_t> nodes = found->second;
+  if (from > to) std::ranges::reverse(nodes);
+  return nodes;
 }
 
 EdgeCurve curve_through(const std::vector<Eigen::Vector2d>& points_mm, double mm_per_unit) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "mesh/edge_curve.hpp"
@@ -22,6 +24,20 @@ class CurveGeometry {
   int curve_;
   double low_ = 0, high_ = 0;
   std::map<std::size_t, double> parameter_;  // of its nodes
+};
+
+// The nodes inside the sides of elements of higher order.
+class SideNodes {
+ public:
+  using Span = std::span<const std::size_t>;
+  // A triangle or quadrilateral: its corners and its other nodes, those of its sides first.
+  void add_element(Span corners, Span others);
+  // A line; what has more nodes than a curve has points is left out.
+  void add_side(std::size_t from, std::size_t to, Span inside);
+  std::vector<std::size_t> between(std::size_t from, std::size_t to) const;
+
+ private:
+  std::map<std::array<std::size_t, 2>, std::vector<std::size_t>> inside_;  // from low to high
 };
 
 // Through points at equidistant parameters. Straight within the rounding of the points; straight,

@@ -26,7 +26,6 @@ Nodes in_order(const Nodes& edge) {
 
 class ModelReader {
   using Span = std::span<const std::size_t>;
-  static constexpr std::size_t most_inside = EdgeCurve::max_degree;
 
  public:
   ModelReader() {
@@ -94,26 +93,6 @@ class ModelReader {
     return is_inside(0, 1, 2, 3) && (p[2] - p[0]).norm() <= (p[3] - p[1]).norm();
   }
 
-  // The nodes inside each side of an element of higher order.
-  void keep_sides(Span corners, Span inside) {
-    // A triangle of degree p has 3 (p − 1) nodes in its sides and (p − 1)(p − 2)/2 in its middle, a
-    // quadrilateral 4 (p − 1) and (p − 1)², or none there.
-    std::size_t of_side = 0;
-    for (const std::size_t sides = corners.size(); of_side < most_inside; ++of_side) {
-      const std::size_t middle = sides == 3 ? of_side * (of_side - 1) / 2 : of_side * of_side;
-      const std::size_t left = inside.size() - sides * of_side;
-      if (inside.size() >= sides * of_side && (left == middle || left == 0)) break;
-    }
-    for (std::size_t k = 0; k < corners.size() && of_side > 0 && of_side < most_inside; ++k)
-      keep_side(corners[k], corners[(k + 1) % corners.size()],
-                inside.subspan(k * of_side, of_side));
-  }
-  void keep_side(std::size_t from, std::size_t to, Span inside) {
-    std::vector<std::size_t> nodes(inside.begin(), inside.end());
-    if (from > to) std::ranges::reverse(nodes);
-    inside_of_side_[in_order({from, to})] = std::move(nodes);
-  }
-
   void read_surface(int surface, int body) {
     const std::size_t before = model_.triangles.size();
     std::set<std::array<std::size_t, 3>> seen;  // MSH 2 has an element once for each of its groups
@@ -125,7 +104,7 @@ class ModelReader {
       return is_new;
     };
     each_element(2, surface, [&](Span n, Span inside) {
-      keep_sides(n, inside);
+      side_nodes_.add_element(n, inside);
       if (n.size() == 3) {
         add(n[0], n[1], n[2]);
         return;
@@ -295,7 +274,7 @@ class ModelReader {
       each_element(1, number, [&](Span n, Span inside) {
         const Nodes edge = in_order({n[0], n[1]});
         if (!seen.insert(edge).second) return;
-        if (!inside.empty() && inside.size() < most_inside) keep_side(n[0], n[1], inside);
+        side_nodes_.add_side(n[0], n[1], inside);
         if (const auto side = left.extract(edge)) {
           curve.sides.push_back(side.mapped());
           bend(side.mapped(), geometry.between(side.mapped()[0], side.mapped()[1]));
@@ -335,11 +314,10 @@ class ModelReader {
   }
   // Where there is no geometry.
   void bend_as_elements(const Nodes& side) {
-    const auto inside = inside_of_side_.find(in_order(side));
-    if (inside == inside_of_side_.end() || model_.bent_sides.contains(side)) return;
+    const std::vector<std::size_t> inside = side_nodes_.between(side[0], side[1]);
+    if (inside.empty() || model_.bent_sides.contains(side)) return;
     std::vector<Eigen::Vector3d> points = {place(side[0])};
-    for (const std::size_t node : inside->second) points.push_back(place(node));
-    if (side[0] > side[1]) std::reverse(points.begin() + 1, points.end());
+    for (const std::size_t node : inside) points.push_back(place(node));
     points.push_back(place(side[1]));
     bend(side, points);
   }
@@ -394,8 +372,8 @@ class ModelReader {
   }
 
   std::unordered_map<std::size_t, Eigen::Vector3d> places_;
-  std::map<Nodes, std::vector<std::size_t>> inside_of_side_;  // from the lower node to the higher
-  std::array<int, 2> axes_ = {0, 1};                          // that are x and y here
+  SideNodes side_nodes_;
+  std::array<int, 2> axes_ = {0, 1};  // that are x and y here
   PlaneModel model_;
   std::vector<int> empty_surfaces_;
   int quadrilaterals_ = 0;

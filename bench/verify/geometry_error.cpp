@@ -1,5 +1,6 @@
 #include "bench/verify/geometry_error.hpp"
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <optional>

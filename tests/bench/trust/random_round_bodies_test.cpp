@@ -19,34 +19,35 @@ namespace {
 using testing::Complex, testing::Dice, testing::KolosovField;
 using Point = Eigen::Vector2d;
 
-// f and g of odd powers with real coefficients: symmetric about both axes.
+// A sum of odd powers with real coefficients: its value, and as many derivatives but one.
+class OddPowers {
+ public:
+  explicit OddPowers(Dice& dice) {
+    for (double& c : coefficient_) c = dice.between(-1, 1);
+  }
+  template <std::size_t count>
+  std::array<Complex, count> at(Complex z) const {
+    std::array<Complex, count> result{};
+    for (std::size_t i = 0; i < powers.size(); ++i) {
+      int n = powers[i];
+      double c = coefficient_[i] * std::pow(0.3, std::max(0, n - 1));
+      for (Complex& derivative : result) {
+        derivative += c * std::pow(z, n);
+        c *= n--;
+      }
+    }
+    return result;
+  }
+
+ private:
+  static constexpr std::array powers = {-3, -1, 1, 3};
+  std::array<double, powers.size()> coefficient_{};
+};
+
+// Symmetric about both axes.
 KolosovField symmetric_field(Dice& dice, double poisson) {
-  constexpr std::array powers = {-3, -1, 1, 3};
-  std::array<double, 4> of_f{}, of_g{};
-  for (double& c : of_f) c = dice.between(-1, 1);
-  for (double& c : of_g) c = dice.between(-1, 1);
-  return {poisson,
-          [=](Complex z) {
-            std::array<Complex, 3> f{};
-            for (std::size_t i = 0; i < powers.size(); ++i) {
-              const int n = powers[i];
-              const double c = of_f[i] * std::pow(0.3, std::max(0, n - 1));
-              f[0] += c * std::pow(z, n);
-              f[1] += c * double(n) * std::pow(z, n - 1);
-              f[2] += c * double(n * (n - 1)) * std::pow(z, n - 2);
-            }
-            return f;
-          },
-          [=](Complex z) {
-            std::array<Complex, 2> g{};
-            for (std::size_t i = 0; i < powers.size(); ++i) {
-              const int n = powers[i];
-              const double c = of_g[i] * std::pow(0.3, std::max(0, n - 1));
-              g[0] += c * std::pow(z, n);
-              g[1] += c * double(n) * std::pow(z, n - 1);
-            }
-            return g;
-          }};
+  const OddPowers f(dice), g(dice);
+  return {poisson, [=](Complex z) { return f.at<3>(z); }, [=](Complex z) { return g.at<2>(z); }};
 }
 
 Problem round_body(Dice& dice, const KolosovField& field) {
