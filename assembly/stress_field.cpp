@@ -93,7 +93,7 @@ int degree_of(const StressCoefficients& stress) {
   return degree;
 }
 
-double curved_product(const TriangleVertices& v, const Problem::Curves& curves,
+double curved_product(const TriangleVertices& v, const CurvedSides& curves,
                       const StressCoefficients& sigma, const StressCoefficients& tau,
                       const Eigen::Matrix3d& C) {
   const int degree = degree_of(sigma);
@@ -103,8 +103,10 @@ double curved_product(const TriangleVertices& v, const Problem::Curves& curves,
     const std::vector<Eigen::Vector2d> chord = {v.col(t), v.col((t + 1) % 3)};
     const CurvedSide<double> side(curves[t].empty() ? std::span(chord) : curves[t], degree);
     const Eigen::MatrixXd root = side.mass_root(v.rowwise().mean()).transpose();
-    sum +=
-        (C * sigma.middleCols(n * t, n) * root).cwiseProduct(tau.middleCols(n * t, n) * root).sum();
+    const auto weighted = [&](const StressCoefficients& stress) {
+      return Eigen::Matrix3Xd(stress.middleCols(n * t, n).lazyProduct(root));
+    };
+    sum += C.lazyProduct(weighted(sigma)).cwiseProduct(weighted(tau)).sum();
   }
   return sum;
 }
@@ -153,8 +155,9 @@ ForcesOnEdge curved_edge_forces(const TriangleVertices& v, const StressCoefficie
   const int degree = degree_of(stress);
   const Eigen::Index n = bernstein_count(degree);
   const Eigen::VectorXd forces =
-      CurvedSide<double>(curve, degree).stress_forces(v.rowwise().mean()) *
-      stress.middleCols(n * k, n).reshaped();
+      CurvedSide<double>(curve, degree)
+          .stress_forces(v.rowwise().mean())
+          .lazyProduct(stress.middleCols(n * k, n).reshaped());
   return forces.reshaped(2, degree + 1);
 }
 

@@ -1,14 +1,19 @@
-// The scalar in which references, residuals and signs of areas are computed: at least the 64 bits
-// of mantissa of the x87, which is fast; AArch64's has 113 in software.
+// The scalar in which references, residuals and signs of areas are computed: at least 64 bits of
+// mantissa. The long double of x86 has them and is fast; elsewhere it is a double, or computed in
+// software, and two doubles are faster.
 #pragma once
 
 #include <limits>
 
+#include "support/double_double.hpp"
+
 namespace airybench {
 
+#if defined(__SIZEOF_FLOAT80__) && !defined(AIRYBENCH_DOUBLE_DOUBLE)
 using Wide = long double;
-static_assert(
-    std::numeric_limits<Wide>::digits >= 64,
-    "references need more digits than double has: no platform without them is known to us");
+#else
+using Wide = DoubleDouble;
+#endif
+static_assert(std::numeric_limits<Wide>::digits >= 64);
 
 }  // namespace airybench

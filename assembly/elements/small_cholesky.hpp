@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "assembly/elements/exact_data.hpp"
 
@@ -148,6 +149,57 @@ class SmallCholesky {
 
   Eigen::Matrix<Scalar, n, n> L_;
   Eigen::Matrix<Scalar, n, 1> reciprocal_;
+  Scalar independence_ = 1;
+};
+
+// R of MᵀM = RᵀR, upper triangular, of a matrix whose size is known when it runs; by modified
+// Gram–Schmidt, as SmallCholesky::of_root.
+template <typename Scalar>
+class GramRoot {
+ public:
+  GramRoot() = default;
+  explicit GramRoot(Eigen::MatrixX<Scalar> M)
+      : R_(Eigen::MatrixX<Scalar>::Zero(M.cols(), M.cols())) {
+    using std::min;
+    using std::sqrt;
+    const int rows = static_cast<int>(M.rows()), n = static_cast<int>(M.cols());
+    const auto dot = [&](int a, int b) {
+      return in_four_sums(M.data() + a * rows, M.data() + b * rows, 0, rows);
+    };
+    std::vector<Scalar> length;
+    for (int j = 0; j < n; ++j) length.push_back(sqrt(dot(j, j)));
+    for (int j = 0; j < n; ++j) {
+      R_(j, j) = sqrt(dot(j, j));
+      independence_ = min(Scalar(R_(j, j) / length[j]), independence_);
+      for (int m = 0; m < rows; ++m) M(m, j) /= R_(j, j);
+      for (int i = j + 1; i < n; ++i) {
+        R_(j, i) = dot(j, i);
+        for (int m = 0; m < rows; ++m) M(m, i) -= R_(j, i) * M(m, j);
+      }
+    }
+  }
+  const Eigen::MatrixX<Scalar>& R() const { return R_; }
+  const Scalar& independence() const { return independence_; }
+
+  // x ← R⁻ᵀ x, (RᵀR)⁻¹ x.
+  void solve_lower(Scalar* x) const {
+    for (int i = 0; i < size(); ++i) {
+      for (int k = 0; k < i; ++k) x[i] -= R_(k, i) * x[k];
+      x[i] /= R_(i, i);
+    }
+  }
+  void solve(Scalar* x) const {
+    solve_lower(x);
+    for (int i = size() - 1; i >= 0; --i) {
+      for (int k = i + 1; k < size(); ++k) x[i] -= R_(i, k) * x[k];
+      x[i] /= R_(i, i);
+    }
+  }
+
+ private:
+  int size() const { return static_cast<int>(R_.cols()); }
+
+  Eigen::MatrixX<Scalar> R_;
   Scalar independence_ = 1;
 };
 

@@ -90,11 +90,11 @@ ContactOffset Problem::offset_at(const Eigen::Vector2d& x, int boundary_row) con
   return offset;
 }
 
-std::optional<Problem::Curves> Problem::curves_of(int triangle, int degree) const {
+std::optional<CurvedSides> Problem::curves_of(int triangle, int degree) const {
   if (degree < 2) return {};
   const auto found = std::ranges::lower_bound(round, triangle, {}, &RoundTriangle::triangle);
   if (found == round.end() || found->triangle != triangle) return {};
-  Curves curves;
+  CurvedSides curves;
   for (std::size_t side = 0; side < 3; ++side)
     if (const int row = found->rows[side]; row != no_row)
       curves[side] = mesh.boundary[row].curve.points_mm;

@@ -26,6 +26,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "assembly/elements/curved_side.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/elements/elasticity.hpp"
 #include "assembly/elements/hct.hpp"
@@ -148,8 +149,7 @@ struct Problem {
 
   // Per side of a triangle points of the curve that stresses of a degree follow; none:
   // straight sides only.
-  using Curves = std::array<std::span<const Eigen::Vector2d>, 3>;
-  std::optional<Curves> curves_of(int triangle, int degree) const;
+  std::optional<CurvedSides> curves_of(int triangle, int degree) const;
   bool follows_curve(int boundary_row, int degree) const;
 
   double friction_at(int boundary_row) const {

@@ -41,7 +41,7 @@ void scatter(const DualSystem& system, const std::array<int, count>& dofs, const
 // and the same in every run.
 void add_rounding(const Eigen::VectorXd& terms, int number, WideVector& r) {
   std::minstd_rand sign(static_cast<unsigned>(number) + 1);
-  constexpr Wide part = std::numeric_limits<Wide>::epsilon() / 4;
+  const Wide part = std::numeric_limits<Wide>::epsilon() / 4;
   for (Eigen::Index i = 0; i < r.size(); ++i)
     r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Wide(terms(i));
 }
@@ -181,7 +181,7 @@ AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& ans
   add_prescribed_displacements(system, residual.x);
   add_boundary_forces(system, answer, F_C, residual);
   add_rounding(residual_terms(system, answer.x.cast<double>()), number, residual.x);
-  return {std::move(residual), static_cast<double>(std::sqrt(stress_squared))};
+  return {std::move(residual), std::sqrt(static_cast<double>(stress_squared))};
 }
 
 AiryProduct airy_product(const DualSystem& system, const Eigen::VectorXd& x) {

@@ -97,11 +97,10 @@ void in_batches(const Problem& problem, const HybridKernels<Scalar, k>& kernels,
 }
 
 // What the kernels do, of a triangle with curved sides.
-template <typename Scalar, int k>
-CurvedElement<Scalar, k> curved_element_of(const HybridInput<Scalar, k>& input,
-                                           const Problem::Curves& curves) {
-  return {TriangleVertices(Eigen::Map<const TriangleVertices>(input.vertices)),
-          Eigen::Matrix3d(Eigen::Map<const Eigen::Matrix3d>(input.compliance)), curves};
+template <typename Scalar>
+CurvedElement<Scalar> curved_element(const Problem& problem, int triangle, int degree,
+                                     const CurvedSides& curves) {
+  return {problem.vertices_of(triangle), problem.compliance_of(triangle), curves, degree};
 }
 
 // K_e's lower triangle, f_e and the independence of an element's stresses.
@@ -137,7 +136,8 @@ void visit_stiffness(const Problem& problem, int degree,
       for (int l = 0; l < count; ++l) {
         if constexpr (k > 1)
           if (const auto curves = problem.curves_of(first + l, k))
-            result[l] = stiffness_of(curved_element_of(input[l], *curves), input[l], loaded);
+            result[l] = stiffness_of(curved_element<Scalar>(problem, first + l, k, *curves),
+                                     input[l], loaded);
         checked(first + l, {result[l].lower, result[l].load, result[l].independence});
       }
     });
@@ -206,8 +206,8 @@ void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& sy
       for (int l = 0; l < count; ++l) {
         if constexpr (k > 1)
           if (const auto curves = problem.curves_of(first + l, k))
-            result[l] =
-                stress_of(curved_element_of(input[l], *curves), input[l], loaded, local.col(l));
+            result[l] = stress_of(curved_element<Scalar>(problem, first + l, k, *curves), input[l],
+                                  loaded, local.col(l));
         visit(first + l, StressOfTriangle<Scalar>{result[l].stress, result[l].forces,
                                                   result[l].defect, result[l].defect_energy});
       }

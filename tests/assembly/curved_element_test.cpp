@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "assembly/elements/elasticity.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
 #include "mesh/edge_curve.hpp"
 #include "support/wide.hpp"
 
@@ -42,13 +43,14 @@ std::vector<Point> arc(const Point& a, const Point& b, double turn_rad) {
 template <typename Element>
 auto stiffness_of(const Element& element) {
   using Scalar = std::decay_t<decltype(element.independence())>;
-  constexpr int size = Element::Degree::size;
-  std::vector<Scalar> lower(size * (size + 1) / 2);
-  Element::square(element.root(), lower.data());
+  const typename Element::Root root = element.root();
+  const Eigen::Index size = root.cols();
+  std::vector<Scalar> lower(static_cast<std::size_t>(size * (size + 1) / 2));
+  Element::square(root, lower.data());
   Eigen::MatrixX<Scalar> K(size, size);
   const Scalar* entry = lower.data();
-  for (int j = 0; j < size; ++j)
-    for (int i = j; i < size; ++i) K(i, j) = K(j, i) = *entry++;
+  for (Eigen::Index j = 0; j < size; ++j)
+    for (Eigen::Index i = j; i < size; ++i) K(i, j) = K(j, i) = *entry++;
   return K;
 }
 
@@ -74,14 +76,14 @@ template <int k>
 void check_degree() {
   SCOPED_TRACE(k);
   const TriangleVertices v = triangle();
-  using Element = CurvedElement<double, k>;
+  using Element = CurvedElement<double>;
   const Eigen::MatrixXd straight = stiffness_of(EquilibriumElement<double, k>(v, steel)),
-                        of_chords = stiffness_of(Element(v, steel, {}));
+                        of_chords = stiffness_of(Element(v, steel, {}, k));
   EXPECT_LT((straight - of_chords).norm(), 1e-11 * straight.norm());
   for (const double turn : {0.4, -0.4}) {
     const std::vector<Point> first = arc(v.col(0), v.col(1), turn),
                              last = arc(v.col(2), v.col(0), turn / 2);
-    const Element element(v, steel, {first, {}, last});
+    const Element element(v, steel, {first, {}, last}, k);
     const Eigen::MatrixXd K = stiffness_of(element);
     EXPECT_GT((K - straight).norm(), 1e-3 * straight.norm());
     const Eigen::VectorXd eigenvalues =
@@ -95,16 +97,16 @@ void check_degree() {
       EXPECT_LT(stress.norm(), 1e-11 * K.norm() * u.norm());
     }
     // Forces of any stress that it can have are in balance.
-    const auto stress = element.stress(Eigen::VectorXd::LinSpaced(Element::Degree::size, -1, 2));
+    const auto stress = element.stress(Eigen::VectorXd::LinSpaced(6 * (k + 1), -1, 2));
     const auto forces = element.edge_forces(stress);
     for (const auto& motion : rigid_motions())
       EXPECT_NEAR(forces.dot(moments_of<k>(v, motion)), 0, 1e-11 * forces.norm());
     // ∫ σ:C:σ is the work of its edges.
-    const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(Element::Degree::size, -1, 2);
+    const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(6 * (k + 1), -1, 2);
     EXPECT_NEAR(element.energy(stress, stress), u.dot(K * u), 1e-9 * u.dot(K * u));
     // The same in long double.
     const Eigen::MatrixXd wide =
-        stiffness_of(CurvedElement<Wide, k>(v, steel, {first, {}, last})).template cast<double>();
+        stiffness_of(CurvedElement<Wide>(v, steel, {first, {}, last}, k)).template cast<double>();
     EXPECT_LT((wide - K).norm(), 1e-11 * K.norm());
   }
 }

@@ -105,8 +105,9 @@ void check_equilibrium() {
   const int n = StressDegree<k>::third;
   const auto tau = [&](int mode, int t, int b, int c) {
     const int row = n * t + ring_place(k, b, c);
-    return Eigen::Vector3d(element.stress[0](row, mode), element.stress[1](row, mode),
-                           element.stress[2](row, mode));
+    Eigen::Vector3d stress;
+    for (int x = 0; x < 3; ++x) stress(x) = static_cast<double>(element.stress[x](row, mode));
+    return stress;
   };
   const auto traction = [](const Eigen::Vector3d& s, const Eigen::Vector2d& m) {
     return Eigen::Vector2d(s(0) * m.x() + s(2) * m.y(), s(2) * m.x() + s(1) * m.y());

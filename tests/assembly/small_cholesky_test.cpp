@@ -41,7 +41,7 @@ TYPED_TEST_SUITE(SmallCholeskyOf, Sizes);
 TYPED_TEST(SmallCholeskyOf, FactorisesAndSolves) {
   using Scalar = typename TypeParam::Scalar;
   constexpr int n = TypeParam::n;
-  constexpr Scalar rounding = 100 * std::numeric_limits<Scalar>::epsilon();
+  const Scalar rounding = 100 * std::numeric_limits<Scalar>::epsilon();
   std::srand(1);
   const Dense<Scalar> I = Dense<Scalar>::Identity(n, n), A = Dense<Scalar>::Random(n, n);
   const Dense<Scalar> S = product<Scalar>(A, A.transpose()) + I;
@@ -66,15 +66,15 @@ TYPED_TEST(SmallCholeskyOf, AMatrixThatIsNotPositiveDefiniteIsSaidToBeNone) {
     Dense<Scalar> S = Dense<Scalar>::Identity(n, n);
     S(n - 2, n - 2) = pivot;
     const SmallCholesky<Scalar, n> cholesky(S);
-    EXPECT_FALSE(cholesky.last_pivot() > 0) << pivot;
-    EXPECT_FALSE(cholesky.independence() > 0) << pivot;
+    EXPECT_FALSE(cholesky.last_pivot() > 0) << static_cast<double>(pivot);
+    EXPECT_FALSE(cholesky.independence() > 0) << static_cast<double>(pivot);
   }
 }
 
 TYPED_TEST(SmallCholeskyOf, ARootHasTheFactorOfItsNormalMatrix) {
   using Scalar = typename TypeParam::Scalar;
   constexpr int n = TypeParam::n, rows = 2 * n;
-  constexpr Scalar rounding = 100 * std::numeric_limits<Scalar>::epsilon();
+  const Scalar rounding = 100 * std::numeric_limits<Scalar>::epsilon();
   std::srand(1);
   Dense<Scalar> M = Dense<Scalar>::Random(rows, n);
   // Nearly dependent: the normal matrix itself would have lost this column's sine altogether.
@@ -92,7 +92,8 @@ TYPED_TEST(SmallCholeskyOf, ARootHasTheFactorOfItsNormalMatrix) {
   x(0) = -1;
   x(n - 1) = 1;
   const Scalar length = product(M, x).norm();
-  EXPECT_LT(std::abs(product<Scalar>(L.transpose(), x).norm() - length), length * rounding / sine);
+  EXPECT_LT(Eigen::numext::abs(product<Scalar>(L.transpose(), x).norm() - length),
+            length * rounding / sine);
 }
 
 TYPED_TEST(SmallCholeskyOf, ARootOfDependentColumnsIsSaidToBeOne) {
@@ -101,7 +102,8 @@ TYPED_TEST(SmallCholeskyOf, ARootOfDependentColumnsIsSaidToBeOne) {
   for (const Scalar entry : {Scalar(0), std::numeric_limits<Scalar>::quiet_NaN()}) {
     Eigen::Matrix<Scalar, 2 * n, n> M = Dense<Scalar>::Random(2 * n, n);
     M.col(1).setConstant(entry);
-    EXPECT_FALSE((SmallCholesky<Scalar, n>::of_root(M).independence() > 0)) << entry;
+    EXPECT_FALSE((SmallCholesky<Scalar, n>::of_root(M).independence() > 0))
+        << static_cast<double>(entry);
   }
 }
 
