@@ -154,10 +154,9 @@ ForcesOnEdge curved_edge_forces(const TriangleVertices& v, const StressCoefficie
                                 std::span<const Eigen::Vector2d> curve) {
   const int degree = degree_of(stress);
   const Eigen::Index n = bernstein_count(degree);
-  const Eigen::VectorXd forces =
-      CurvedSide<double>(curve, degree)
-          .stress_forces(v.rowwise().mean())
-          .lazyProduct(stress.middleCols(n * k, n).reshaped());
+  const Eigen::VectorXd forces = CurvedSide<double>(curve, degree)
+                                     .stress_forces(v.rowwise().mean())
+                                     .lazyProduct(stress.middleCols(n * k, n).reshaped());
   return forces.reshaped(2, degree + 1);
 }
 

@@ -4,8 +4,8 @@
 // Popescu, Tight and rigorous error bounds for basic building blocks of double-word arithmetic, ACM
 // TOMS 44, 2017, doi:10.1145/3121432: algorithms 6, 11 and 12, 17.)
 //
-// No operations may be fused (-ffp-contract=off): what rounding took away is computed from that.
-// Infinities become NaN.
+// A compiler may fuse what is here: the products whose rounding is taken away are used otherwise,
+// too, and stay. Infinities become NaN.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,7 +24,7 @@ class DoubleDouble {
       : high_(static_cast<double>(value)),
         low_(static_cast<double>(value - static_cast<decltype(value)>(high_))) {}
   template <typename Number>
-    requires std::integral<Number> || std::floating_point<Number>
+  requires std::integral<Number> || std::floating_point<Number>
   explicit operator Number() const {
     return static_cast<Number>(high_) + static_cast<Number>(low_);
   }
@@ -46,8 +46,7 @@ class DoubleDouble {
     const double quotient = a.high_ / b.high_;
     const DoubleDouble whole = product(b.high_, quotient),
                        times = ordered_sum(whole.high_, whole.low_ + b.low_ * quotient);
-    return ordered_sum(quotient,
-                       ((a.high_ - times.high_) + (a.low_ - times.low_)) / b.high_);
+    return ordered_sum(quotient, ((a.high_ - times.high_) + (a.low_ - times.low_)) / b.high_);
   }
   DoubleDouble& operator+=(const DoubleDouble& b) { return *this = *this + b; }
   DoubleDouble& operator-=(const DoubleDouble& b) { return *this = *this - b; }

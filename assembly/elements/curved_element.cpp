@@ -38,7 +38,8 @@ CurvedElement<Scalar>::CurvedElement(const TriangleVertices& vertices,
   compliance_root_ = SmallCholesky<Scalar, 3>(compliance.cast<Scalar>()).L().transpose();
 
   const Eigen::Matrix3<Scalar> to_stress = equilibrium_formulas::stress_map(B, determinant);
-  const Eigen::Index coefficients = 3 * third_, modes = with_degree(degree, [](auto k) { return StressDegree<k>::modes; });
+  const Eigen::Index coefficients = 3 * third_,
+                     modes = with_degree(degree, [](auto k) { return StressDegree<k>::modes; });
   modes_.resize(3 * coefficients, modes);
   of_modes_.resize(3 * coefficients, modes);
   forces_of_modes_.resize(6 * points, modes);

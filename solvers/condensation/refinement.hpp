@@ -1,9 +1,9 @@
 // Iterative refinement of the hybridized system (Wilkinson 1963; Higham, Accuracy and Stability of
 // Numerical Algorithms, ch. 12):  r = b + F_C − K u,  u ← u + M⁻¹ r.
 //
-// K, b, u and r are Wide numbers (64 bits of mantissa on x86), K from element matrices that
-// were computed so; M is the factor of K rounded to double. A step divides the error by
-// about 1/(cond K · 1e-16); in the end the error is that of the residual, about cond K · 1e-19.
+// K, b, u and r are Wide numbers (wide.hpp), K from element matrices that were computed so; M is
+// the factor of K rounded to double. A step divides the error by about 1/(cond K · 1e-16); in the
+// end the error is that of the residual, about cond K · 1e-19 or less.
 #pragma once
 
 #include "solvers/condensation/hybridized.hpp"

@@ -136,7 +136,8 @@ Method blind_schur() {
 
 Method blind_schur_refined() {
   return blind_schur_method("BLIND:SCHUR:REFINED",
-                            "BLIND:SCHUR refined with residuals in long double", Refine::yes);
+                            "BLIND:SCHUR refined with residuals in extended precision",
+                            Refine::yes);
 }
 
 Method blind_skyline() {

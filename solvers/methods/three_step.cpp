@@ -59,7 +59,7 @@ Method three_step() {
 }
 
 Method three_step_refined() {
-  return with_skyline("3STEPD:REFINED", "3STEPD refined with residuals in long double",
+  return with_skyline("3STEPD:REFINED", "3STEPD refined with residuals in extended precision",
                       KeepX::Where::memory, Refine::yes);
 }
 

@@ -104,7 +104,7 @@ void check_degree() {
     // ∫ σ:C:σ is the work of its edges.
     const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(6 * (k + 1), -1, 2);
     EXPECT_NEAR(element.energy(stress, stress), u.dot(K * u), 1e-9 * u.dot(K * u));
-    // The same in long double.
+    // The same in extended precision.
     const Eigen::MatrixXd wide =
         stiffness_of(CurvedElement<Wide>(v, steel, {first, {}, last}, k)).template cast<double>();
     EXPECT_LT((wide - K).norm(), 1e-11 * K.norm());

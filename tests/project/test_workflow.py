@@ -19,7 +19,7 @@ class WorkflowTest(unittest.TestCase):
         for action in actions:
             self.assertRegex(action, r"^actions/[a-z-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+$")
         images = re.findall(r"(?:container|image): (debian.*)", NIGHTLY + CI)
-        self.assertEqual(len(images), 4)
+        self.assertEqual(len(images), 5)
         for image in images:
             self.assertRegex(image, r"^debian:1[23]@sha256:[0-9a-f]{64}  # ")
         image = re.search(r"^ARG DEBIAN=(.*)", (PROJECT / "Dockerfile").read_text(encoding="utf-8"), re.M)[1]
