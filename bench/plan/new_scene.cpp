@@ -45,9 +45,7 @@ std::string part_of(const std::string& name, const std::string& role) {
   std::string part = name;
   const auto at = std::search(part.begin(), part.end(), role.begin(), role.end(), same);
   part.erase(at, at + std::min(part.end() - at, std::ssize(role)));
-  const auto is_part = [](char c) {
-    return c < 0 || std::isalnum(static_cast<unsigned char>(c)) != 0;
-  };
+  const auto is_part = [](unsigned char c) { return c >= 0x80 || std::isalnum(c) != 0; };
   part.erase(part.begin(), std::ranges::find_if(part, is_part));
   while (!part.empty() && !is_part(part.back())) part.pop_back();
   return part;
