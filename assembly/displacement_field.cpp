@@ -294,15 +294,15 @@ double work_beyond_chords(const Problem& problem, const FreeMotions& free, int d
     for (int k = 0; k < 3; ++k) {
       const int row = rows[k];
       if (row == Problem::no_row) continue;
-      if (problem.loads.traction_MPa)
+      if (problem.loads.traction_MPa && problem.mesh.boundary[row].role == BoundaryRole::force)
         work +=
             work_of_traction(problem, row, degree, free) - work_of_traction(problem, row, 1, free);
       if (!problem.loads.has_body_force()) continue;
       const TriangleVertices v = problem.vertices_of(triangle);
       Eigen::Matrix<double, 2, 3> corners;  // of the third; ∫ of linear functions from them
       corners << v.col(k), v.col((k + 1) % 3), v.rowwise().mean();
-      const Eigen::MatrixXd root = CurvedSide<double>(problem.mesh.boundary[row].curve.points_mm, 1)
-                                       .mass_root(corners.col(2));
+      const Eigen::MatrixXd root =
+          CurvedSide<double>(problem.curve_of(row, 1), 1).mass_root(corners.col(2));
       const Eigen::Vector3d weight = root.transpose() * root.rowwise().sum();
       for (int i = 0; i < 3; ++i)
         work += (weight(i) - problem.area_mm2(triangle) / 9) *

@@ -81,18 +81,42 @@ void pair_points(const Problem& problem, ContactPoints& contact) {
 
 namespace {
 
+// The moments ū_j of a motion that is linear in x, columns, in x and y.
+template <int k, typename Motion>
+Eigen::Matrix2Xd moments_of_motion(const Problem& problem, int row, const Motion& at) {
+  Eigen::Matrix2Xd moments(2, k + 1);
+  if (problem.follows_curve(row, k)) {
+    const CurvedSide<double> side(problem.curve_of(row, k), k);
+    Eigen::Matrix2Xd u(2, CurvedSide<double>::points);
+    for (int q = 0; q < u.cols(); ++q) u.col(q) = at(side.at(q));
+    return side.moments(u);
+  }
+  const auto [start, end] = problem.mesh.boundary[row].vertices;
+  const std::array<Eigen::Vector2d, 2> ends = {at(problem.mesh.vertices[start]),
+                                               at(problem.mesh.vertices[end])};
+  for (int j = 0; j <= k; ++j) moments.col(j) = moment_of(k, j, ends);
+  return moments;
+}
+
 template <int k>
 void add_contact_points(const Problem& problem, int row, ContactPoints& contact,
                         std::vector<double>& gap) {
-  const std::array<ContactOffset, k + 2> offset = offset_coefficients<k + 1>(problem, row);
   for (int j = 0; j <= k; ++j) {
     contact.boundary.push_back(row);
     if (contact.components == 2) contact.friction.push_back(problem.friction_at(row));
-    if (!problem.has_gap()) continue;
-    const Eigen::Vector2d normal = problem.frame_of_moment(row, k, j).normal;
-    std::array<Eigen::Vector2d, k + 2> along;
-    for (int i = 0; i <= k + 1; ++i) along[i] = offset[i].along(normal);
-    const Eigen::Vector2d moment = moment_of(k, j, along);
+  }
+  if (!problem.has_gap()) return;
+  const std::array<ContactOffset, k + 2> offset = offset_coefficients<k + 1>(problem, row);
+  std::array<Eigen::Vector2d, k + 2> along;  // without motion
+  for (int i = 0; i <= k + 1; ++i) along[i] = {offset[i].gap_mm, offset[i].slid_mm};
+  const int start = problem.mesh.boundary[row].vertices[0];
+  const Eigen::Matrix2Xd motion = moments_of_motion<k>(
+      problem, row, [&](const Eigen::Vector2d& x) { return problem.motion_at(x, start); });
+  for (int j = 0; j <= k; ++j) {
+    const EdgeFrame frame = problem.frame_of_moment(row, k, j);
+    const Eigen::Vector2d moment =
+        moment_of(k, j, along) -
+        Eigen::Vector2d(frame.normal.dot(motion.col(j)), frame.tangent.dot(motion.col(j)));
     gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
   }
 }
@@ -100,10 +124,9 @@ void add_contact_points(const Problem& problem, int row, ContactPoints& contact,
 // The moment ū_j of a motion.
 template <int k>
 Eigen::Vector2d moment_in_frame(const Problem& problem, int row, int j, const RigidMotion& motion) {
-  const auto [start, end] = problem.mesh.boundary[row].vertices;
-  const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
-  const Eigen::Vector2d moment =
-      moment_of(k, j, std::array<Eigen::Vector2d, 2>{motion.at(a), motion.at(b)});
+  const Eigen::Vector2d moment = moments_of_motion<k>(problem, row, [&](const Eigen::Vector2d& x) {
+                                   return motion.at(x);
+                                 }).col(j);
   const EdgeFrame frame = problem.frame_of_moment(row, k, j);
   return {frame.normal.dot(moment), frame.tangent.dot(moment)};
 }

@@ -101,7 +101,8 @@ double curved_product(const TriangleVertices& v, const CurvedSides& curves,
   double sum = 0;
   for (int t = 0; t < 3; ++t) {
     const std::vector<Eigen::Vector2d> chord = {v.col(t), v.col((t + 1) % 3)};
-    const CurvedSide<double> side(curves[t].empty() ? std::span(chord) : curves[t], degree);
+    const CurvedSide<double> side(curves[t].is_straight() ? SideCurve{chord, {}, {}} : curves[t],
+                                  degree);
     const Eigen::MatrixXd root = side.mass_root(v.rowwise().mean()).transpose();
     const auto weighted = [&](const StressCoefficients& stress) {
       return Eigen::Matrix3Xd(stress.middleCols(n * t, n).lazyProduct(root));
@@ -151,7 +152,7 @@ ForcesOnEdge element_edge_forces(const TriangleVertices& v, const StressCoeffici
 }
 
 ForcesOnEdge curved_edge_forces(const TriangleVertices& v, const StressCoefficients& stress, int k,
-                                std::span<const Eigen::Vector2d> curve) {
+                                const SideCurve& curve) {
   const int degree = degree_of(stress);
   const Eigen::Index n = bernstein_count(degree);
   const Eigen::VectorXd forces = CurvedSide<double>(curve, degree)

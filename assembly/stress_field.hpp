@@ -97,6 +97,6 @@ ForcesOnEdge element_edge_forces(const TriangleVertices& v, const StressCoeffici
                                  int k);
 // The same on a curve of that edge (curved_side.hpp).
 ForcesOnEdge curved_edge_forces(const TriangleVertices& v, const StressCoefficients& stress, int k,
-                                std::span<const Eigen::Vector2d> curve);
+                                const SideCurve& curve);
 
 }  // namespace airybench

@@ -176,7 +176,7 @@ def errors(rows: list[Row]) -> Iterator[str]:
         told = "" if len(known) == len(judged) else f" in the {len(known)} cases that report it"
         yield ("Errors are of the algebra, not of the mesh: relative, in the energy norms ∫ σ:C:σ of "
                "stresses and FᵀDF of contact forces, against a reference solution of the same discrete "
-               "problem, by hybridized elements and refined in extended precision"
+               "problem, by hybridized elements and refined in long double"
                + (f", whose own error is by its estimate at most {max(known):.1e}{told}" if known
                   else "") + ".")
         yield ("They, equilibrium and the contact law are judged by a verifier that no solver calls.")

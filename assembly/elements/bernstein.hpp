@@ -26,6 +26,15 @@ constexpr int bernstein_count(int d) { return (d + 1) * (d + 2) / 2; }
 // edge V1 V2 come first.
 constexpr int ring_place(int d, int b, int c) { return c * (d + 1) - c * (c - 1) / 2 + b; }
 
+// B_j of degree k on an edge.
+template <typename Scalar>
+Scalar bernstein_polynomial(int k, int j, const Scalar& s) {
+  Scalar value = binomial(k, j);
+  for (int i = 0; i < j; ++i) value *= s;
+  for (int i = j; i < k; ++i) value *= 1 - s;
+  return value;
+}
+
 // ∫ B_α B_β over a triangle of area a = a Π binom(α_p + β_p, α_p) / (binom(2d, d) binom(2d+2, 2)).
 template <typename Scalar>
 Eigen::MatrixX<Scalar> bernstein_mass(int d, Scalar area) {

@@ -11,6 +11,14 @@
 // equilibrium_element.hpp. On any curve they have all rigid motions, whose moments are those on the
 // chord; walked the other way j becomes k − j.
 //
+// Under a contact law a density is a polynomial in its frames along the curve, R(ξ) = (n, t),
+//
+//   q = (k + 1) Σ B_j(ξ) R(ξ) R_jᵀ F_j,   ū_j = (k + 1) ∫ B_j(ξ) R_j R(ξ)ᵀ u dξ
+//
+// with fixed frames R_j, in which F_j are pressure and friction, ū_j normal and tangential motion.
+// With the complex F and ū of above, F_complex = M F and ū = Mᵀ ū_complex: all rigid motions are
+// still there. Normals between those given are their interpolant's.
+//
 // The third of the triangle on this side, up to the centroid V4 of the corners, has the points
 // V4 + ρ (x(ξ) − V4), 0 ≤ ρ ≤ 1. Stresses on it are the polynomials of the straight third.
 //
@@ -26,8 +34,24 @@
 
 namespace airybench {
 
-// Per side of a triangle points of its curve, mm; none: it is straight.
-using CurvedSides = std::array<std::span<const Eigen::Vector2d>, 3>;
+struct SideCurve {
+  // At equidistant ξ from 0 to 1, as many as a polynomial needs; none: a straight side.
+  std::span<const Eigen::Vector2d> points_mm;
+  // n of a contact law at equidistant ξ from 0 to 1, and of the k + 1 frames R_j; none: there is
+  // no such law.
+  std::span<const Eigen::Vector2d> law_normals, moment_normals;
+
+  bool is_straight() const { return points_mm.empty(); }
+};
+using CurvedSides = std::array<SideCurve, 3>;  // of a triangle
+
+// x(ξ), x′(ξ), and R(ξ); without a contact law R is the identity.
+template <typename Scalar>
+struct CurvePoint {
+  CurvePoint(const SideCurve& curve, const Scalar& xi);
+  Eigen::Vector2<Scalar> at, tangent;
+  Eigen::Matrix2<Scalar> frame;
+};
 
 template <typename Scalar>
 class CurvedSide {
@@ -36,31 +60,52 @@ class CurvedSide {
   using Matrix = Eigen::MatrixX<Scalar>;
   static constexpr int points = 15, layers = 7;  // along ξ and ρ
 
-  // points_mm: x at equidistant ξ from 0 to 1, which are as many as a polynomial needs; degree: k.
-  CurvedSide(std::span<const Eigen::Vector2d> points_mm, int degree);
+  // degree: k.
+  CurvedSide(const SideCurve& curve, int degree);
 
   const Vector& at(int q) const { return at_[q]; }
   const Vector& normal(int q) const { return normal_[q]; }  // N
+  static const Scalar& xi(int q);
   static const Scalar& weight(int q);
 
-  // F of a density at the points, columns, times dξ: k + 1 columns.
+  // F of a density at the points, columns, times dξ: k + 1 columns. Under a contact law that of the
+  // polynomial with the same complex F.
   Eigen::Matrix2X<Scalar> forces(const Eigen::Matrix2X<Scalar>& density) const;
+  // ū of displacements at the points: of their best approximation by the complex polynomials, which
+  // rigid motions are.
+  Eigen::Matrix2X<Scalar> moments(const Eigen::Matrix2X<Scalar>& displacement) const;
+  // Under a contact law the density of F at a point, the traction times |x′|.
+  Vector density(const Eigen::Matrix2X<Scalar>& forces, int q) const;
   // F of the stresses B_i xx, B_i yy, B_i xy of the third: rows as F by columns, columns 3 i + 0,
   // 1, 2.
   Matrix stress_forces(const Vector& centroid) const;
   // W with |W c|² = ∫ p² over the third, mm², p = Σ c_i B_i; upper triangular.
   Matrix mass_root(const Vector& centroid) const;
+  // Points across the third: ρ, and the area that a point stands for, mm².
+  struct Layer {
+    Scalar rho, area;
+  };
+  Layer layer(const Vector& centroid, int q, int l) const;
   // All B_i of the third, at V4 + ρ (x(ξ_q) − V4).
   Eigen::VectorX<Scalar> bernstein(const Vector& centroid, int q, const Scalar& rho) const;
 
  private:
+  void set_complex(int q);
+  Eigen::Matrix2X<Scalar> complex_forces(const Eigen::Matrix2X<Scalar>& density) const;
+  void set_law(const SideCurve& curve);
+
   int degree_;
   Vector a_, b_;
   std::array<Vector, points> at_, normal_;
-  std::array<Matrix, points> complex_;  // 2 × (k + 1): B_j(ẑ)
+  std::array<Matrix, points> complex_;  // 2 × 2(k + 1): m = Σ complexᵀ q dξ
   GramRoot<Scalar> gram_;               // of G
+  std::array<Matrix, points> law_;      // q = law F
+  Matrix to_complex_;                   // M; none: no contact law
+  GramRoot<Scalar> of_law_;             // of MᵀM
 };
 
+extern template struct CurvePoint<double>;
+extern template struct CurvePoint<Wide>;
 extern template class CurvedSide<double>;
 extern template class CurvedSide<Wide>;
 

@@ -203,6 +203,33 @@ std::vector<ContactNormals> contact_normals(const ReachableContact& contact, con
   return normals;
 }
 
+std::vector<ContactNormals> curve_normals(const ReachableContact& contact, const Scene& scene) {
+  const Mesh& mesh = contact.mesh;
+  std::vector<ContactNormals> normals;
+  const auto own = [&](int row, double xi) {
+    const Eigen::Vector2d tangent = mesh.boundary[row].curve.derivative(xi).normalized();
+    return Eigen::Vector2d(tangent.y(), -tangent.x());
+  };
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const BoundaryEdge& edge = mesh.boundary[row];
+    if (edge.role != BoundaryRole::contact || edge.curve.is_straight()) continue;
+    const auto& matched = contact.matched[row];
+    if (matched && mesh.boundary[matched->opposite].curve.is_straight()) continue;
+    const EdgeValues values = values_of(mesh, row, scene);
+    const auto at = [&](double xi) -> Eigen::Vector2d {
+      if (matched) return (own(row, xi) - own(matched->opposite, 1 - xi)).normalized();
+      const Eigen::Vector2d x = edge.curve.at(xi);
+      if (values.wall) return facing(mesh, row, values).direction_at(x);
+      return values.face ? normal_of_curve(*values.face, x, own(row, xi)) : own(row, xi);
+    };
+    normals.resize(mesh.boundary.size());
+    for (int n = 1; n <= ContactNormals::most_parts; ++n)
+      for (int i = 0; i <= n; ++i)
+        normals[static_cast<std::size_t>(row)].at(i, n) = at(static_cast<double>(i) / n);
+  }
+  return normals;
+}
+
 std::vector<double> contact_friction(const ReachableContact& contact, const Scene& scene) {
   const Mesh& mesh = contact.mesh;
   std::vector<double> friction(mesh.boundary.size(), 0);

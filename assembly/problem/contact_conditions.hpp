@@ -36,6 +36,8 @@ ContactGap contact_gap(const ReachableContact& contact, const Scene& scene);
 
 // Per row of Mesh::boundary; empty: the edges' own normals.
 std::vector<ContactNormals> contact_normals(const ReachableContact& contact, const Scene& scene);
+// Problem::curve_normals: of the wall, or of the face; of a pair the mean of both curves' own.
+std::vector<ContactNormals> curve_normals(const ReachableContact& contact, const Scene& scene);
 
 // μ per row of Mesh::boundary.
 std::vector<double> contact_friction(const ReachableContact& contact, const Scene& scene);

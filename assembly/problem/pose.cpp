@@ -318,13 +318,16 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   std::vector<Loads> steps = loads_of_steps(scene, contact);
   std::vector<Eigen::Matrix3d> by_body = compliances(scene, mesh);
   const std::vector<double> friction = contact_friction(contact, scene);
-  std::vector<ContactNormals> normals = contact_normals(contact, scene);
+  std::vector<ContactNormals> normals = contact_normals(contact, scene),
+                              on_curves = curve_normals(contact, scene);
   std::vector<int> opposite = opposite_edges(contact);
   Problem problem =
       make_problem(std::move(mesh), std::move(by_body), std::move(steps.front()), friction);
   problem.contact_normals = std::move(normals);
+  problem.curve_normals = std::move(on_curves);
   problem.opposite = std::move(opposite);
   problem.matching = contact.changes;
+  find_round_sides(problem);
   check_rollers_at_pairs(scene, problem);
   check_pins(scene, problem);
   problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),

@@ -37,29 +37,10 @@ std::vector<int> central_vertices(const Problem& problem, const MeshPieces& piec
   return central;
 }
 
-void find_round_triangles(Problem& problem) {
-  const Mesh& mesh = problem.mesh;
-  std::vector<int> row_of_edge(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);
-  bool any = false;
-  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
-    if (const BoundaryEdge& edge = mesh.boundary[row];
-        edge.role == BoundaryRole::force && !edge.curve.is_straight()) {
-      row_of_edge[problem.edges.of_boundary[row]] = row;
-      any = true;
-    }
-  for (int t = 0; any && t < static_cast<int>(mesh.triangles.size()); ++t) {
-    Problem::RoundTriangle round{t, {Problem::no_row, Problem::no_row, Problem::no_row}};
-    const TriangleVertices v = problem.vertices_of(t);
-    for (int side = 0; side < 3; ++side)
-      if (const int row = row_of_edge[problem.edges.of_triangle[t][side]];
-          row != Problem::no_row && fits(mesh.boundary[row].curve, v.col((side + 2) % 3))) {
-        round.rows[side] = row;
-        problem.round_rows.push_back(row);
-      }
-    if (round.rows != std::array{Problem::no_row, Problem::no_row, Problem::no_row})
-      problem.round.push_back(round);
-  }
-  std::ranges::sort(problem.round_rows);
+bool may_follow_curve(const Problem& problem, int row) {
+  const BoundaryEdge& edge = problem.mesh.boundary[row];
+  if (edge.curve.is_straight() || problem.is_roller(row)) return false;
+  return edge.role != BoundaryRole::contact || !problem.curve_normals.empty();
 }
 
 // Empty without friction.
@@ -96,9 +77,19 @@ std::optional<CurvedSides> Problem::curves_of(int triangle, int degree) const {
   if (found == round.end() || found->triangle != triangle) return {};
   CurvedSides curves;
   for (std::size_t side = 0; side < 3; ++side)
-    if (const int row = found->rows[side]; row != no_row)
-      curves[side] = mesh.boundary[row].curve.points_mm;
+    if (const int row = found->rows[side]; row != no_row) curves[side] = curve_of(row, degree);
   return curves;
+}
+
+SideCurve Problem::curve_of(int boundary_row, int degree) const {
+  const BoundaryEdge& edge = mesh.boundary[boundary_row];
+  SideCurve curve{edge.curve.points_mm, {}, {}};
+  if (edge.role == BoundaryRole::contact) {
+    const ContactNormals& normals = curve_normals[boundary_row];
+    curve.law_normals = normals.all(ContactNormals::most_parts);
+    curve.moment_normals = normals.all(degree + 2).subspan(1, static_cast<std::size_t>(degree) + 1);
+  }
+  return curve;
 }
 
 bool Problem::follows_curve(int boundary_row, int degree) const {
@@ -131,6 +122,12 @@ EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
   EdgeMoments moments = EdgeMoments::Zero(2, degree + 1);
   const auto& u0 = loads.displacement_mm;
   if (!u0) return moments;
+  if (follows_curve(boundary_row, degree)) {
+    const CurvedSide<double> side(curve_of(boundary_row, degree), degree);
+    Eigen::Matrix2Xd u(2, CurvedSide<double>::points);
+    for (int q = 0; q < u.cols(); ++q) u.col(q) = u0(side.at(q), boundary_row);
+    return side.moments(u);
+  }
   const auto [start, end] = mesh.boundary[boundary_row].vertices;
   const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
   const std::array<Eigen::Vector2d, 3> coefficients =
@@ -143,6 +140,35 @@ EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
   return moments;
 }
 
+void find_round_sides(Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  problem.round.clear();
+  problem.round_rows.clear();
+  std::vector<int> row_of_edge(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
+    if (may_follow_curve(problem, row)) row_of_edge[problem.edges.of_boundary[row]] = row;
+  std::vector<bool> fit(mesh.boundary.size(), false);
+  const auto for_sides = [&](const auto& visit) {
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+      for (int side = 0; side < 3; ++side)
+        if (const int row = row_of_edge[problem.edges.of_triangle[t][side]]; row != Problem::no_row)
+          visit(t, side, row);
+  };
+  for_sides([&](int t, int side, int row) {
+    const TriangleVertices v = problem.vertices_of(t);
+    fit[row] = fits(mesh.boundary[row].curve, v.col((side + 2) % 3));
+  });
+  for_sides([&](int t, int side, int row) {
+    const int other = problem.opposite_of(row);
+    if (!fit[row] || (other != Problem::no_row && !fit[other])) return;
+    if (problem.round.empty() || problem.round.back().triangle != t)
+      problem.round.push_back({t, {Problem::no_row, Problem::no_row, Problem::no_row}});
+    problem.round.back().rows[side] = row;
+    problem.round_rows.push_back(row);
+  });
+  std::ranges::sort(problem.round_rows);
+}
+
 bool same_body(const Problem& a, const Problem& b) {
   const auto alike = [](const BoundaryEdge& x, const BoundaryEdge& y) {
     return x.vertices == y.vertices && x.role == y.role && x.curve.points_mm == y.curve.points_mm;
@@ -150,7 +176,8 @@ bool same_body(const Problem& a, const Problem& b) {
   if (a.mesh.vertices != b.mesh.vertices || a.mesh.triangles != b.mesh.triangles ||
       a.mesh.triangle_body != b.mesh.triangle_body || a.compliance != b.compliance ||
       !std::ranges::equal(a.mesh.boundary, b.mesh.boundary, alike) ||
-      a.contact_normals != b.contact_normals || a.opposite != b.opposite)
+      a.contact_normals != b.contact_normals || a.curve_normals != b.curve_normals ||
+      a.opposite != b.opposite)
     return false;
   for (int row = 0; row < static_cast<int>(a.mesh.boundary.size()); ++row)
     if (const EdgeCondition x = a.condition(row), y = b.condition(row);
@@ -181,7 +208,7 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
   const MeshPieces pieces = pieces_of(problem.mesh);
   problem.free = free_motions(problem.mesh, problem.loads.rollers, pieces);
   problem.central_vertices = central_vertices(problem, pieces);
-  find_round_triangles(problem);
+  find_round_sides(problem);
   return problem;
 }
 
@@ -203,6 +230,7 @@ Problem with_loads(const Problem& problem, Loads loads) {
                  .free = problem.free,
                  .friction = problem.friction,
                  .contact_normals = problem.contact_normals,
+                 .curve_normals = problem.curve_normals,
                  .opposite = problem.opposite,
                  .matching = problem.matching,
                  .round = problem.round,

@@ -73,6 +73,9 @@ class ContactNormals {
   ContactNormals() { normals_.fill(Eigen::Vector2d::Zero()); }
   Eigen::Vector2d& at(int i, int n) { return normals_[place(i, n)]; }  // 0 ≤ i ≤ n ≤ most_parts
   const Eigen::Vector2d& at(int i, int n) const { return normals_[place(i, n)]; }
+  std::span<const Eigen::Vector2d> all(int n) const {
+    return {&at(0, n), static_cast<std::size_t>(n) + 1};
+  }
   bool operator==(const ContactNormals&) const = default;
 
  private:
@@ -113,6 +116,8 @@ struct Problem {
   FreeMotions free = {};
   std::vector<double> friction = {};  // μ ≥ 0 per row of Mesh::boundary, 0 off Γ_C; empty: none
   std::vector<ContactNormals> contact_normals = {};  // per row; empty: the edges' own
+  // The same along the curves of edges, at ξ = i/n; empty: there are none.
+  std::vector<ContactNormals> curve_normals = {};
   // Per row: the contact edge of another body that it presses on, walked the other way; none: a
   // wall. Empty: walls only. Its points match those of this edge, and its frames are opposite.
   static constexpr int no_row = -1;
@@ -121,8 +126,8 @@ struct Problem {
     int inserted = 0, moved = 0;
     bool has_curves = false;  // edges stand for curves; the gap is known at three points of each
   } matching = {};
-  // Stresses of degree 2 and more follow curved force edges (curved_element.hpp); others take their
-  // chords. Triangles and rows in ascending order.
+  // Stresses of degree 2 and more follow curved edges (curved_element.hpp), of a pair both or none;
+  // others, and rollers, take their chords. Triangles and rows in ascending order.
   struct RoundTriangle {
     int triangle;
     std::array<int, 3> rows;  // per side, of Mesh::boundary
@@ -151,6 +156,7 @@ struct Problem {
   // straight sides only.
   std::optional<CurvedSides> curves_of(int triangle, int degree) const;
   bool follows_curve(int boundary_row, int degree) const;
+  SideCurve curve_of(int boundary_row, int degree) const;  // if it follows one
 
   double friction_at(int boundary_row) const {
     return friction.empty() ? 0 : friction[static_cast<std::size_t>(boundary_row)];
@@ -182,22 +188,27 @@ struct Problem {
   // True if the law's normal changes along an edge. Stresses and displacements are then admissible
   // up to the square of that angle.
   bool contact_turns() const;
-  // The edge's own frame, on Γ_C the contact law's, at i/n of the way from start to end.
+  // The edge's own frame, on Γ_C the contact law's, at i/n of the way from start to end, on its
+  // chord or on its curve.
   template <typename Scalar = double>
   EdgeFrameIn<Scalar> frame_at(int boundary_row, int i, int n) const {
-    const auto [a, b] = mesh.boundary[boundary_row].vertices;
-    const EdgeFrameIn<Scalar> own = edge_frame<Scalar>(mesh.vertices[a], mesh.vertices[b]);
-    if (contact_normals.empty() || mesh.boundary[boundary_row].role != BoundaryRole::contact)
-      return own;
-    const Eigen::Vector2<Scalar> normal =
-        contact_normals[boundary_row].at(i, n).template cast<Scalar>().normalized();
-    return {own.length_mm, {-normal.y(), normal.x()}, normal};
+    return frame_of<Scalar>(contact_normals, boundary_row, i, n);
+  }
+  template <typename Scalar = double>
+  EdgeFrameIn<Scalar> frame_on_curve(int boundary_row, int i, int n) const {
+    return frame_of<Scalar>(curve_normals, boundary_row, i, n);
   }
   // Of F_j and ū_j, for stresses of a degree: at the centre of the weight B_j. In a round wall a
-  // body can then turn without strain, since ∫ B_j ωJx ds ∥ J x_centre.
+  // body can then turn without strain, since ∫ B_j ωJx ds ∥ J x_centre. (k + 1)/length F_j are the
+  // Bernstein coefficients of the traction.
   template <typename Scalar = double>
   EdgeFrameIn<Scalar> frame_of_moment(int boundary_row, int degree, int j) const {
-    return frame_at<Scalar>(boundary_row, j + 1, degree + 2);
+    if (!follows_curve(boundary_row, degree))
+      return frame_at<Scalar>(boundary_row, j + 1, degree + 2);
+    EdgeFrameIn<Scalar> frame = frame_on_curve<Scalar>(boundary_row, j + 1, degree + 2);
+    frame.length_mm =
+        mesh.boundary[boundary_row].curve.derivative(j / static_cast<double>(degree)).norm();
+    return frame;
   }
 
   // Without friction the tangential force on Γ_C is known, as on a roller: zero.
@@ -216,11 +227,26 @@ struct Problem {
     const Eigen::Vector2<Scalar> b = loads.body_force_N_per_mm3.cast<Scalar>();
     return {-b.x() * d.x(), -b.y() * d.y(), Scalar(0)};
   }
+
+ private:
+  template <typename Scalar>
+  EdgeFrameIn<Scalar> frame_of(const std::vector<ContactNormals>& normals, int boundary_row, int i,
+                               int n) const {
+    const auto [a, b] = mesh.boundary[boundary_row].vertices;
+    const EdgeFrameIn<Scalar> own = edge_frame<Scalar>(mesh.vertices[a], mesh.vertices[b]);
+    if (normals.empty() || mesh.boundary[boundary_row].role != BoundaryRole::contact) return own;
+    const Eigen::Vector2<Scalar> normal =
+        normals[boundary_row].at(i, n).template cast<Scalar>().normalized();
+    return {own.length_mm, {-normal.y(), normal.x()}, normal};
+  }
 };
 
 // True if two problems differ in loads, gap and friction at most: same mesh, materials and known
 // components on every boundary edge. (With friction others are known than without.)
 bool same_body(const Problem& a, const Problem& b);
+
+// Finds the edges whose curves are followed, which depend on `curve_normals` and `opposite`.
+void find_round_sides(Problem& problem);
 
 // Takes a valid mesh (see validate()), one compliance per body, loads with the whole u0, and μ on
 // Γ_C, per row of Mesh::boundary or one for all.

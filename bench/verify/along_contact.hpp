@@ -6,6 +6,7 @@
 
 #include "assembly/displacement_field.hpp"
 #include "assembly/elements/bernstein.hpp"
+#include "bench/verify/curved_traces.hpp"
 
 namespace airybench {
 
@@ -34,28 +35,29 @@ inline LargestValue largest_value(const AlongEdge& c, LargestValue known = {}, d
   return largest_value(right, known, start + length / 2, length / 2);
 }
 
-// Of w of degree p, between bodies of both; mm.
+// Of w of degree p, given by its traces, between bodies of both; mm.
 template <int p>
 struct ContactMotion {
   std::array<double, p + 1> beyond;  // u_n − g0
   std::array<double, p + 1> slip;    // u_t, less that of earlier load steps
 };
 template <int p>
-ContactMotion<p> contact_motion(const Problem& problem, int row, const DisplacementField& w) {
+ContactMotion<p> contact_motion(const Problem& problem, const CurvedTraces& traces, int row,
+                                const DisplacementField& w) {
   const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
-  const std::array<ContactOffset, p + 1> offset = offset_coefficients<p>(problem, row);
+  const std::array<ContactOffset, p + 1> offset = traces.offsets<p>(row);
   ContactMotion<p> motion;
   for (int i = 0; i <= p; ++i) {
-    const EdgeFrame frame = frame_of_coefficient<p>(problem, row, i);
+    const EdgeFrame frame = traces.frame(row, i);
     motion.beyond[i] = frame.normal.dot(w.col(nodes[i])) - offset[i].along(frame.normal).x();
     motion.slip[i] = frame.tangent.dot(w.col(nodes[i]) + offset[i].motion_mm) - offset[i].slid_mm;
   }
   const int other = problem.opposite_of(row);
   if (other == Problem::no_row) return motion;
   const std::array<int, p + 1> across = boundary_nodes<p>(problem, other);
-  const std::array<ContactOffset, p + 1> beyond = offset_coefficients<p>(problem, other);
+  const std::array<ContactOffset, p + 1> beyond = traces.offsets<p>(other);
   for (int i = 0; i <= p; ++i) {
-    const EdgeFrame frame = frame_of_coefficient<p>(problem, other, p - i);
+    const EdgeFrame frame = traces.frame(other, p - i);
     const Eigen::Vector2d of_other = w.col(across[p - i]);
     motion.beyond[i] += frame.normal.dot(of_other) - beyond[p - i].along(frame.normal).x();
     motion.slip[i] += frame.tangent.dot(of_other + beyond[p - i].motion_mm) - beyond[p - i].slid_mm;

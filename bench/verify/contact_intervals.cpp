@@ -106,10 +106,17 @@ LargestPressure largest_pressure(const Problem& problem, const StressField& stre
     for (int k = 0; k < 3; ++k) {
       const int row = contact_row[problem.edges.of_triangle[t][k]];
       if (row < 0) continue;
-      const EdgeFrame frame = frame_of(problem.mesh, row);
-      const AlongEdge pressure = -(stress.degree() + 1) / frame.length_mm *
-                                 frame.normal.transpose() *
-                                 element_edge_forces(problem.vertices_of(t), stress[t], k);
+      EdgeFrame frame = frame_of(problem.mesh, row);
+      AlongEdge pressure(stress.degree() + 1);
+      const bool is_curved = problem.follows_curve(row, stress.degree());
+      const ForcesOnEdge forces = is_curved
+                                      ? curved_edge_forces(problem.vertices_of(t), stress[t], k,
+                                                           problem.curve_of(row, stress.degree()))
+                                      : element_edge_forces(problem.vertices_of(t), stress[t], k);
+      for (int j = 0; j <= stress.degree(); ++j) {
+        if (is_curved) frame = problem.frame_of_moment(row, stress.degree(), j);
+        pressure(j) = -(stress.degree() + 1) / frame.length_mm * frame.normal.dot(forces.col(j));
+      }
       peak.of_edge_MPa = std::max(peak.of_edge_MPa, pressure.mean());
       const double largest = largest_value(pressure, {peak.pressure_MPa}).value;
       if (largest > peak.pressure_MPa) {
@@ -121,12 +128,14 @@ LargestPressure largest_pressure(const Problem& problem, const StressField& stre
   return peak;
 }
 
-// A contact face of edges that are not parallel.
-bool has_polygon(const Mesh& mesh) {
+// A contact face of chords that are not parallel.
+bool has_polygon(const Problem& problem, int degree) {
+  const Mesh& mesh = problem.mesh;
   for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact))
     for (const int row : rows)
-      if ((frame_of(mesh, row).normal - frame_of(mesh, rows.front()).normal).norm() >
-          straight_roller)
+      if (!problem.follows_curve(row, degree) &&
+          (frame_of(mesh, row).normal - frame_of(mesh, rows.front()).normal).norm() >
+              straight_roller)
         return true;
   return false;
 }
@@ -147,7 +156,7 @@ void set_largest_pressure(const Problem& problem, const StressField& stress,
                                problem.area_mm2(t)),
                from_afar = std::max(0.0, p) * error.relative * error.relative,
                delta = safety * (std::abs(p - of_u) + own + from_afar),
-               least = has_polygon(problem.mesh) ? of_stress.of_edge_MPa : p;
+               least = has_polygon(problem, stress.degree()) ? of_stress.of_edge_MPa : p;
   if (delta <= useful * p)
     result.largest_pressure_within_MPa = Bracket{std::max(0.0, least - delta), p + delta};
 }

@@ -60,15 +60,15 @@ struct ContactTerms {
   double highest_gap, highest_force;  // largest u_n − g0 and F_n; admissible: ≤ 0
 };
 
-// point: the first of an edge.
+// point: the first of an edge; u: its traces.
 template <int k>
-ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::VectorXd& F_C,
-                           const DisplacementField& u) {
+ContactTerms contact_terms(const DualSystem& system, const CurvedTraces& traces, int point,
+                           const Eigen::VectorXd& F_C, const DisplacementField& u) {
   constexpr int p = k + 1;
   const Problem& problem = *system.problem;
   const int row = system.contact.boundary[point], m = system.contact.components;
   const WallDetail detail = problem.wall_detail_at(row);
-  auto [r, u_t] = contact_motion<p>(problem, row, u);
+  auto [r, u_t] = contact_motion<p>(problem, traces, row, u);
   EdgeValues<k> normal, tangential{};
   for (int j = 0; j <= k; ++j) {
     normal[j] = F_C(m * (point + j));
@@ -165,16 +165,18 @@ double strain_energy(const Eigen::Ref<const Eigen::Matrix3Xd>& stress, double ar
 }
 
 // Adds the energies of the body: ½ ∫ of σ, of Aε(u), and twice that of their difference.
-void add_body(const Problem& problem, Fields& fields, ConstitutiveError& error) {
+void add_body(const Problem& problem, const CurvedTraces& traces, Fields& fields,
+              ConstitutiveError& error) {
   const auto& [stress, F_C, u, energy, energy_of_u] = fields;
   const auto& element = DisplacementTriangle::of_degree(stress.degree() + 1);
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   error.of_triangle_Nmm.resize(stress.size());
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleShape shape(problem.vertices_of(t));
+    const DisplacementTriangle::Displacement of_u = of_triangle(problem, element.degree, u, t);
     const DisplacementTriangle::Strain other =
         elasticity[problem.mesh.triangle_body[t]].lazyProduct(
-            element.strain(shape.gradients, of_triangle(problem, element.degree, u, t)));
+            element.strain(shape.gradients, of_u));
     const DisplacementTriangle::StrainByThirds own = stress[t],
                                                difference =
                                                    own - other.lazyProduct(element.on_thirds);
@@ -183,7 +185,8 @@ void add_body(const Problem& problem, Fields& fields, ConstitutiveError& error) 
       return is_round ? stress_product(problem, t, s, s) / 2
                       : strain_energy(s, shape.area_mm2, problem.compliance_of(t), element.mass);
     };
-    error.of_triangle_Nmm[t] = 2 * energy_of(difference);
+    error.of_triangle_Nmm[t] =
+        traces.of(t) ? traces.squared_distance(t, difference, of_u) : 2 * energy_of(difference);
     fields.energy += energy_of(own);
     fields.energy_of_u +=
         is_round ? energy_of(other.lazyProduct(element.on_thirds).eval()) : energy_of(other);
@@ -197,7 +200,9 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   const Problem& problem = *system.problem;
   ConstitutiveError error;
   Fields fields{stress, F_C, u, 0, 0};
-  add_body(problem, fields, error);
+  const CurvedTraces traces(problem, k + 1);
+  const DisplacementField of_traces = traces.traces(u);
+  add_body(problem, traces, fields, error);
   std::vector<int> triangle_of_edge(static_cast<std::size_t>(problem.edges.count()));
   for (int t = 0; t < static_cast<int>(stress.size()); ++t)
     for (const int edge : problem.edges.of_triangle[t]) triangle_of_edge[edge] = t;
@@ -206,7 +211,7 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   for (int point = 0; point < system.contact.count; point += k + 1) {
     const int row = system.contact.boundary[point], other = problem.opposite_of(row);
     if (problem.is_second_of_pair(row)) continue;  // both sides are one term
-    const ContactTerms terms = contact_terms<k>(system, point, F_C, u);
+    const ContactTerms terms = contact_terms<k>(system, traces, point, F_C, of_traces);
     const double beyond_wall =
         compliance(system.contact.components * point) * terms.beyond_wall_N * terms.beyond_wall_N;
     error.normal_contact_Nmm += terms.normal;

@@ -11,7 +11,8 @@ namespace airybench {
 namespace {
 
 template <int k>
-std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::VectorXd& F_C) {
+std::map<int, ContactNode> contact_nodes(const DualSystem& system, const CurvedTraces& traces,
+                                         const Eigen::VectorXd& F_C) {
   constexpr int p = k + 1;
   const Problem& problem = *system.problem;
   const int m = system.contact.components;
@@ -20,19 +21,13 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
     const int row = system.contact.boundary[point], other = problem.opposite_of(row);
     if (problem.is_second_of_pair(row)) continue;
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
-    std::array<Eigen::Vector2d, k + 1> force;
-    for (int j = 0; j <= k; ++j) {
-      const EdgeFrame frame = problem.frame_of_moment(row, k, j);
-      const int at = m * (point + j);
-      force[j] = F_C(at) * frame.normal + (m == 2 ? F_C(at + 1) : 0) * frame.tangent;
-    }
     std::array<int, p + 1> partners;
     partners.fill(ContactNode::none);
-    std::array<ContactOffset, p + 1> offset = offset_coefficients<p>(problem, row);
+    std::array<ContactOffset, p + 1> offset = traces.offsets<p>(row);
     if (other != Problem::no_row) {
       partners = boundary_nodes<p>(problem, other);
       std::ranges::reverse(partners);
-      const std::array<ContactOffset, p + 1> beyond = offset_coefficients<p>(problem, other);
+      const std::array<ContactOffset, p + 1> beyond = traces.offsets<p>(other);
       for (int i = 0; i <= p; ++i) {
         offset[i].gap_mm += beyond[p - i].gap_mm;
         offset[i].slid_mm += beyond[p - i].slid_mm;
@@ -47,13 +42,18 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
       const double sign = is_turned ? -1 : 1;
       ContactNode& node = contact[is_turned ? partners[i] : nodes[i]];
       node.partner = is_turned ? nodes[i] : partners[i];
-      const Eigen::Vector2d normal = frame_of_coefficient<p>(problem, row, i).normal;
+      const EdgeFrame frame = traces.frame(row, i);
+      const Eigen::Vector2d& normal = frame.normal;
       node.walls.push_back(
           {sign * normal, offset[i].gap_mm - lowered[i] - normal.dot(offset[i].motion_mm)});
       node.offset = offset[i];
       node.offset.motion_mm *= sign;
       node.friction = std::min(node.friction, system.contact.friction_at(point));
-      for (int j = 0; j <= k; ++j) node.force += sign * edge_moment(k, j, p, i) * force[j];
+      for (int j = 0; j <= k; ++j) {
+        const int at = m * (point + j);
+        node.force += sign * edge_moment(k, j, p, i) *
+                      (F_C(at) * frame.normal + (m == 2 ? F_C(at + 1) : 0) * frame.tangent);
+      }
     }
   }
   return contact;
@@ -84,20 +84,30 @@ Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vecto
   return behind(node.walls, w_n * n + w_t * t);
 }
 
-void move_along_roller(const Eigen::Vector2d& normal, const std::vector<Barrier>& walls,
+// How far to move a node back from a wall, below 0 towards it, where a force of 1 N yields that
+// much: behind the wall, and a closed one as far as its force presses it.
+double to_wall(const ContactNode& node, const Barrier& wall, const Eigen::Vector2d& w,
+               double yields) {
+  const double pressing = std::max(0.0, -wall.normal.dot(node.force));
+  return std::max(-pressing * yields, wall.excess(w));
+}
+
+void move_along_roller(const Eigen::Vector2d& normal, const ContactNode& node, double stiffness,
                        Eigen::Ref<Eigen::Vector2d> w) {
   const Eigen::Vector2d along(-normal.y(), normal.x());
-  for (const Barrier& wall : walls)
+  for (const Barrier& wall : node.walls)
     if (const double cosine = wall.normal.dot(along); std::abs(cosine) >= straight_roller)
-      w -= std::max(0.0, wall.excess(w)) / cosine * along;
+      w -= to_wall(node, wall, w, cosine * cosine / stiffness) / cosine * along;
 }
 
 }  // namespace
 
-DisplacementConstraints::DisplacementConstraints(const DualSystem& system, int k,
+DisplacementConstraints::DisplacementConstraints(const DualSystem& system,
+                                                 const CurvedTraces& traces,
                                                  const Eigen::VectorXd& F_C)
-    : given_(prescribed_displacement(*system.problem, k + 1)),
-      contact_(with_degree(k, [&](auto degree) { return contact_nodes<degree>(system, F_C); })) {}
+    : given_(traces.prescribed()), contact_(with_degree(traces.degree() - 1, [&](auto k) {
+        return contact_nodes<k>(system, traces, F_C);
+      })) {}
 
 std::vector<bool> DisplacementConstraints::nodes() const {
   std::vector<bool> nodes = given_.at;
@@ -122,7 +132,7 @@ void DisplacementConstraints::apply(const Eigen::VectorXd& stiffness, Displaceme
     }
     if (given_.at[static_cast<std::size_t>(number)]) continue;
     if (const auto roller = given_.normal.find(number); roller != given_.normal.end())
-      move_along_roller(roller->second, node.walls, w.col(number));
+      move_along_roller(roller->second, node, stiffness(number), w.col(number));
     else
       w.col(number) = in_contact(node, stiffness(number), w.col(number));
   }
@@ -159,7 +169,7 @@ void DisplacementConstraints::move_pair(int one, const ContactNode& node,
       yields += wall.normal.dot(way[k]);
     }
     if (yields < straight_roller * straight_roller * both) continue;
-    const double excess = std::max(0.0, wall.excess(apart()));
+    const double excess = to_wall(node, wall, apart(), yields);
     w.col(nodes[0]) -= excess / yields * way[0];
     w.col(nodes[1]) += excess / yields * way[1];
   }

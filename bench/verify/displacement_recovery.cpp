@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "bench/verify/curved_traces.hpp"
 #include "bench/verify/displacement_constraints.hpp"
 #include "bench/verify/own_displacement.hpp"
 #include "bench/verify/positive_definite.hpp"
@@ -25,7 +26,7 @@ void set_rigid_motion(const Problem& problem, const Triangle& element, int trian
   const Eigen::Matrix<double, 2, 3> corner = v.colwise() - v.rowwise().mean();
   const auto& corners = problem.mesh.triangles[triangle];
   const auto curves = problem.curves_of(triangle, k);
-  const auto is_curved = [&](int e) { return curves && !(*curves)[e].empty(); };
+  const auto is_curved = [&](int e) { return curves && !(*curves)[e].is_straight(); };
   const bool all_curved = is_curved(0) && is_curved(1) && is_curved(2);
   int count = 0;
   Eigen::Vector2d missing_sum = Eigen::Vector2d::Zero(), arms = Eigen::Vector2d::Zero();
@@ -75,17 +76,33 @@ std::array<double, Triangle::max_nodes> stiffnesses(const Triangle& element,
   return stiffness;
 }
 
+// Of the x and y of nodes, columns.
+Triangle::Displacement mapped(const Eigen::MatrixXd& map, const Triangle::Displacement& u) {
+  return map.lazyProduct(u.reshaped()).reshaped(2, u.cols());
+}
+
 // Half the gradient of a triangle's ‖σ − Aε(w)‖², N: K_e (w − w_e) with its displacement w_e.
 Triangle::Displacement half_gradient(const Triangle& element, const TriangleShape& shape,
                                      const Eigen::Matrix3d& elasticity,
                                      const Triangle::DisplacementRef& own,
-                                     const DisplacementField& w, const Triangle::Nodes& nodes) {
+                                     const DisplacementField& w, const Triangle::Nodes& nodes,
+                                     const CurvedTraces::Map* curved) {
   Triangle::Displacement difference(2, element.nodes);
   for (int m = 0; m < element.nodes; ++m) difference.col(m) = w.col(nodes[m]) - own.col(m);
+  if (curved) difference = mapped(curved->to_coefficients, difference);
   const Triangle::Strain weighted =
       element.strain(shape.gradients, difference).lazyProduct(element.mass);
   const Eigen::Matrix3d stiffness = shape.area_mm2 * elasticity;
-  return element.forces(shape.gradients, stiffness.lazyProduct(weighted).eval());
+  const Triangle::Displacement forces =
+      element.forces(shape.gradients, stiffness.lazyProduct(weighted).eval());
+  return curved ? mapped(curved->to_coefficients.transpose(), forces) : forces;
+}
+
+// K of w, or of its traces.
+Triangle::Stiffness stiffness(const Triangle& element, const TriangleShape& shape,
+                              const Eigen::Matrix3d& elasticity, const CurvedTraces::Map* curved) {
+  const Triangle::Stiffness K = element.stiffness(shape, elasticity);
+  return curved ? curved->of_traces(K) : K;
 }
 
 // Calls visit(triangle, shape, elasticity, nodes) for all triangles.
@@ -98,8 +115,8 @@ void for_triangles(const Problem& problem, int degree, Visit visit) {
 }
 
 // Sets the inner coefficients to those that minimise ‖σ − Aε(w)‖ for the others: K_ii d = −f_i.
-void set_inner(const Problem& problem, const Triangle& element, const Eigen::Matrix2Xd& own,
-               DisplacementField& w) {
+void set_inner(const Problem& problem, const Triangle& element, const CurvedTraces& traces,
+               const Eigen::Matrix2Xd& own, DisplacementField& w) {
   const int inner = element.inner, outer = element.outer;
   if (inner == 0) return;
   for_triangles(
@@ -107,9 +124,14 @@ void set_inner(const Problem& problem, const Triangle& element, const Eigen::Mat
       [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
           const Triangle::Nodes& nodes) {
         const auto of_triangle = own.middleCols(element.nodes * t, element.nodes);
-        Eigen::MatrixXd step =
-            half_gradient(element, shape, A, of_triangle, w, nodes).rightCols(inner).reshaped();
-        if (!solve_positive_definite(element.stiffness(shape, A, outer, inner), step)) return;
+        const CurvedTraces::Map* curved = traces.of(t);
+        Eigen::MatrixXd step = half_gradient(element, shape, A, of_triangle, w, nodes, curved)
+                                   .rightCols(inner)
+                                   .reshaped();
+        const Triangle::Stiffness K =
+            curved ? stiffness(element, shape, A, curved).bottomRightCorner(2 * inner, 2 * inner)
+                   : element.stiffness(shape, A, outer, inner);
+        if (!solve_positive_definite(K, step)) return;
         for (int m = 0; m < inner; ++m)
           w.col(nodes[outer + m]) -= Eigen::Vector2d(step(2 * m), step(2 * m + 1));
       });
@@ -143,8 +165,9 @@ class Recovery {
            const Eigen::MatrixXd& edge_moments)
       : problem_(*system.problem),
         element_(Triangle::of_degree(stress.degree() + 1)),
+        traces_(problem_, element_.degree),
         own_(2, element_.nodes * static_cast<Eigen::Index>(stress.size())),
-        constraints_(system, stress.degree(), F_C),
+        constraints_(system, traces_, F_C),
         stress_(stress) {
     const OwnDisplacement& own_displacement = OwnDisplacement::of_degree(stress.degree());
     const int nodes = displacement_nodes(problem_, element_.degree);
@@ -155,6 +178,7 @@ class Recovery {
       const Eigen::Matrix3d& compliance = problem_.compliance_of(t);
       Triangle::Displacement own = own_displacement(shape, compliance, stress[t]);
       set_rigid_motion(problem_, element_, t, edge_moments, own);
+      if (const auto* curved = traces_.of(t)) own = mapped(curved->to_traces, own);
       own_.middleCols(element_.nodes * t, element_.nodes) = own;
       const auto weight = stiffnesses(element_, shape, compliance);
       const auto node = triangle_nodes(problem_, element_.degree, t);
@@ -172,12 +196,12 @@ class Recovery {
     w_ = step().w;
     if (need_vertex_stars(problem_)) {
       const std::vector<bool> held = constraints_.nodes();
-      VertexStars stars(problem_, element_, own_, held);
+      VertexStars stars(problem_, element_, traces_, own_, held);
       for (int sweep = 0; sweep < 2; ++sweep) stars.sweep(w_);
     }
     improve_where_needed();
-    set_inner(problem_, element_, own_, w_);
-    return std::move(w_);
+    set_inner(problem_, element_, traces_, own_, w_);
+    return traces_.coefficients(w_);
   }
 
  private:
@@ -190,7 +214,7 @@ class Recovery {
                       const Triangle::Nodes& nodes) {
                     const auto own = own_.middleCols(element_.nodes * t, element_.nodes);
                     const Triangle::Displacement force =
-                        half_gradient(element_, shape, A, own, w_, nodes);
+                        half_gradient(element_, shape, A, own, w_, nodes, traces_.of(t));
                     double distance = 0;
                     for (int m = 0; m < element_.nodes; ++m) {
                       result.gradient.col(nodes[m]) += force.col(m);
@@ -242,10 +266,11 @@ class Recovery {
     for (int ring = 0; ring < rings; ++ring) is_free = with_neighbours(is_free);
     std::vector<ZoneTriangle> zone;
     for_triangles(problem_, element_.degree,
-                  [&](int, const TriangleShape& shape, const Eigen::Matrix3d& A,
+                  [&](int t, const TriangleShape& shape, const Eigen::Matrix3d& A,
                       const Triangle::Nodes& nodes) {
                     if (std::ranges::any_of(nodes, [&](int node) { return is_free[node]; }))
-                      zone.push_back({{nodes.begin(), nodes.end()}, element_.stiffness(shape, A)});
+                      zone.push_back({{nodes.begin(), nodes.end()},
+                                      stiffness(element_, shape, A, traces_.of(t))});
                   });
     improve_zone(constraints_, zone, std::move(is_free), next.gradient, w_);
   }
@@ -264,10 +289,11 @@ class Recovery {
 
   const Problem& problem_;
   const Triangle& element_;
-  Eigen::Matrix2Xd own_;  // one triangle after another: w_T
+  const CurvedTraces traces_;
+  Eigen::Matrix2Xd own_;  // one triangle after another: w_T, as its traces
   DisplacementConstraints constraints_;
   const StressField& stress_;
-  DisplacementField w_;
+  DisplacementField w_;        // its traces
   Eigen::VectorXd stiffness_;  // per node, of a Jacobi step
 };
 
@@ -290,8 +316,10 @@ DisplacementField admissible_displacement(const DualSystem& system, const Eigen:
     const auto node = triangle_nodes(problem, element.degree, t);
     for (std::size_t m = 0; m < node.size(); ++m) stiffness(node[m]) += weight[m];
   }
-  DisplacementConstraints(system, element.degree - 1, F_C).apply(stiffness, w);
-  return w;
+  const CurvedTraces traces(problem, element.degree);
+  w = traces.traces(w);
+  DisplacementConstraints(system, traces, F_C).apply(stiffness, w);
+  return traces.coefficients(w);
 }
 
 }  // namespace airybench

@@ -81,19 +81,27 @@ double steepness(const TriangleVertices& v) {
 
 double squared_error_on_curve(const Problem& problem, const StressField& stress, int triangle,
                               int k, int row) {
+  const BoundaryRole role = problem.mesh.boundary[row].role;
+  if (role == BoundaryRole::displacement) return 0;
   const int degree = stress.degree();
   const double constant = std::exp2(1 - degree);
   const TriangleVertices v = problem.vertices_of(triangle);
   const Eigen::Vector2d centroid = v.rowwise().mean();
-  const CurvedSide<double> side(problem.mesh.boundary[row].curve.points_mm, degree);
+  const SideCurve curve = problem.curve_of(row, degree);
+  const CurvedSide<double> side(curve, degree);
   const auto of_third = stress[static_cast<std::size_t>(triangle)].middleCols(
       k * bernstein_count(degree), bernstein_count(degree));
+  const ForcesOnEdge forces =
+      curved_edge_forces(v, stress[static_cast<std::size_t>(triangle)], k, curve);
   double sum = 0;  // ∫ |r|² ds
   for (int q = 0; q < CurvedSide<double>::points; ++q) {
     const double length = side.normal(q).norm();
     const Eigen::Vector2d n = side.normal(q) / length;
     Eigen::Vector2d r = -traction(of_third * side.bernstein(centroid, q, 1), n);
-    if (problem.loads.traction_MPa) r += problem.loads.traction_MPa(side.at(q), n, row);
+    if (role == BoundaryRole::contact)
+      r += side.density(forces, q) / length;
+    else if (problem.loads.traction_MPa)
+      r += problem.loads.traction_MPa(side.at(q), n, row);
     sum += CurvedSide<double>::weight(q) * length * r.squaredNorm();
   }
   return constant * steepness(v) * (v.col((k + 1) % 3) - v.col(k)).norm() *

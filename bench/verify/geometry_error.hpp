@@ -15,8 +15,9 @@
 // of degrees 1 to 3, 0.08 to 0.16 on held circles; it is not proven. Where the mesh does not know
 // its curves, they are supposed (supposed_curves.hpp); h is then the whole side, however it is cut.
 //
-// Stresses of degree k ≥ 2 follow curved force edges (curved_element.hpp). Their tractions match
-// the loads there in moments only, so what is left has no resultant on any edge, and
+// Stresses of degree k ≥ 2 follow curved edges (curved_element.hpp). Their tractions match the
+// loads there, or those of the contact law, in moments only, so what is left has no resultant on
+// any edge, and
 //
 //   η² = Σ c_k h/E ∫ |f − σ n|² ds,   c_k = 2^(1 − k)/sin³ of the triangle's smallest angle
 //

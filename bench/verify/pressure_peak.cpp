@@ -31,8 +31,11 @@ class Face {
     is_closed_ = mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
     for (const int row : rows) {
       const double length = system.problem->frame_at(row, 0, 1).length_mm;
-      const Eigen::VectorXd force = F_C(Eigen::seqN(m * point_of_row[row], n, m));
-      edges_.push_back({row, length_, length, AlongEdge(-n / length * force.transpose())});
+      AlongEdge pressure(n);
+      for (int j = 0; j < n; ++j)
+        pressure(j) = -n / system.problem->frame_of_moment(row, system.degree, j).length_mm *
+                      F_C(m * (point_of_row[row] + j));
+      edges_.push_back({row, length_, length, pressure});
       length_ += length;
       if (const LargestValue largest = largest_value(edges_.back().pressure, {highest_});
           largest.value > highest_) {

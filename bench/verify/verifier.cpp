@@ -82,7 +82,7 @@ EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
     for (int k = 0; k < 3; ++k) {
       const int a = problem.mesh.triangles[t][k], b = problem.mesh.triangles[t][(k + 1) % 3];
       const ForcesOnEdge force =
-          curves && !(*curves)[k].empty()
+          curves && !(*curves)[k].is_straight()
               ? curved_edge_forces(problem.vertices_of(t), of_triangle, k, (*curves)[k])
               : element_edge_forces(v, of_triangle, k);
       balance.largest = std::max(balance.largest, force.cwiseAbs().maxCoeff());
@@ -108,6 +108,19 @@ ForcesOnEdge walked(const Problem& problem, const EdgeBalance& balance, int row)
   return a < b ? ForcesOnEdge(sum) : ForcesOnEdge(sum.rowwise().reverse());
 }
 
+// Of forces on a boundary edge.
+Eigen::Vector2d resultant_on(const Problem& problem, int row, const ForcesOnEdge& forces) {
+  const int degree = static_cast<int>(forces.cols()) - 1;
+  if (problem.mesh.boundary[row].role != BoundaryRole::contact ||
+      !problem.follows_curve(row, degree))
+    return forces.rowwise().sum();
+  const CurvedSide<double> side(problem.curve_of(row, degree), degree);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int q = 0; q < CurvedSide<double>::points; ++q)
+    sum += CurvedSide<double>::weight(q) * side.density(forces, q);
+  return sum;
+}
+
 void note_equilibrium(const DualSystem& system, const Solution& solution,
                       const EdgeBalance& balance, const LoadScale& scale, Verification& result) {
   const Problem& problem = *system.problem;
@@ -123,6 +136,8 @@ void note_equilibrium(const DualSystem& system, const Solution& solution,
     on_boundary[problem.edges.of_boundary[row]] = true;
     const BoundaryRole role = mesh.boundary[row].role;
     const ForcesOnEdge on = walked(problem, balance, row);
+    if (problem.follows_curve(row, degree))
+      resultant += segment_area(mesh.boundary[row].curve) * problem.loads.body_force_N_per_mm3;
     if (role == BoundaryRole::displacement && !problem.is_roller(row)) {
       resultant += on.rowwise().sum();
       continue;
@@ -130,8 +145,6 @@ void note_equilibrium(const DualSystem& system, const Solution& solution,
     const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
                &b = mesh.vertices[mesh.boundary[row].vertices[1]];
     ForcesOnEdge off = on;
-    if (problem.follows_curve(row, degree))
-      resultant += segment_area(mesh.boundary[row].curve) * problem.loads.body_force_N_per_mm3;
     if (role == BoundaryRole::force && problem.loads.traction_MPa) {
       off -= traction_forces<double>(problem, row, degree);
     } else if (role == BoundaryRole::contact) {
@@ -147,7 +160,7 @@ void note_equilibrium(const DualSystem& system, const Solution& solution,
       off = (frame.tangent * (frame.tangent.transpose() * off)).eval();
     }
     unbalanced = std::max(unbalanced, off.cwiseAbs().maxCoeff());
-    resultant += (on - off).rowwise().sum();
+    resultant += resultant_on(problem, row, on - off);
   }
   for (int edge = 0; edge < problem.edges.count(); ++edge)
     if (!on_boundary[edge])

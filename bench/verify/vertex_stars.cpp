@@ -15,7 +15,8 @@ bool need_vertex_stars(const Problem& problem) {
 }
 
 VertexStars::VertexStars(const Problem& problem, const DisplacementTriangle& element,
-                         const Eigen::Matrix2Xd& own, const std::vector<bool>& held)
+                         const CurvedTraces& traces, const Eigen::Matrix2Xd& own,
+                         const std::vector<bool>& held)
     : problem_(problem),
       element_(element),
       own_(own),
@@ -34,8 +35,9 @@ VertexStars::VertexStars(const Problem& problem, const DisplacementTriangle& ele
   const int outer = 2 * element.outer, inner = 2 * element.inner;
   K_.reserve(problem.mesh.triangles.size());
   for (int t = 0; t < triangles; ++t) {
-    const auto K = element.stiffness(TriangleShape(problem.vertices_of(t)),
-                                     elasticity[problem.mesh.triangle_body[t]]);
+    DisplacementTriangle::Stiffness K = element.stiffness(
+        TriangleShape(problem.vertices_of(t)), elasticity[problem.mesh.triangle_body[t]]);
+    if (const auto* curved = traces.of(t)) K = curved->of_traces(K);
     Eigen::MatrixXd& of_outer = K_.emplace_back(K.topLeftCorner(outer, outer));
     if (inner > 0) {
       Eigen::MatrixXd eliminated = K.bottomLeftCorner(inner, outer);

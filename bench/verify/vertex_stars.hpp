@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "assembly/displacement_field.hpp"
+#include "bench/verify/curved_traces.hpp"
 
 namespace airybench {
 
@@ -21,9 +22,10 @@ bool need_vertex_stars(const Problem& problem);
 class VertexStars {
  public:
   // own: one triangle after another, the coefficients of the displacement with the stress nearest
-  // to σ. held: fixed.
+  // to σ, as its traces. held: fixed.
   VertexStars(const Problem& problem, const DisplacementTriangle& triangle,
-              const Eigen::Matrix2Xd& own, const std::vector<bool>& held);
+              const CurvedTraces& traces, const Eigen::Matrix2Xd& own,
+              const std::vector<bool>& held);
   // Leaves inner coefficients as they are.
   void sweep(DisplacementField& w);
 

@@ -83,7 +83,8 @@ void check_degree() {
   for (const double turn : {0.4, -0.4}) {
     const std::vector<Point> first = arc(v.col(0), v.col(1), turn),
                              last = arc(v.col(2), v.col(0), turn / 2);
-    const Element element(v, steel, {first, {}, last}, k);
+    const CurvedSides sides = {SideCurve{first, {}, {}}, SideCurve{}, SideCurve{last, {}, {}}};
+    const Element element(v, steel, sides, k);
     const Eigen::MatrixXd K = stiffness_of(element);
     EXPECT_GT((K - straight).norm(), 1e-3 * straight.norm());
     const Eigen::VectorXd eigenvalues =
@@ -106,7 +107,7 @@ void check_degree() {
     EXPECT_NEAR(element.energy(stress, stress), u.dot(K * u), 1e-9 * u.dot(K * u));
     // The same in extended precision.
     const Eigen::MatrixXd wide =
-        stiffness_of(CurvedElement<Wide>(v, steel, {first, {}, last}, k)).template cast<double>();
+        stiffness_of(CurvedElement<Wide>(v, steel, sides, k)).template cast<double>();
     EXPECT_LT((wide - K).norm(), 1e-11 * K.norm());
   }
 }
@@ -117,13 +118,72 @@ TEST(CurvedElement, OfEveryDegreeHasRigidMotionsAndNoOthers) {
   check_degree<4>();
 }
 
+// Of a contact law with normals that turn less than the arc.
+TEST(CurvedSide, UnderAContactLawHasItsFrames) {
+  const Point a(1, 0.5), b(3, 1), centre(1.2, 6);
+  const std::vector<Point> points = arc(a, b, 0.6);
+  for (int k = 2; k <= highest_stress_degree; ++k) {
+    SCOPED_TRACE(k);
+    const auto normals = [&](int parts) {
+      std::vector<Point> n;
+      for (int i = 0; i <= parts; ++i)
+        n.push_back((EdgeCurve{points}.at(i / static_cast<double>(parts)) - centre).normalized());
+      return n;
+    };
+    const std::vector<Point> law = normals(6), of_moments = normals(k);
+    const CurvedSide<double> side({points, law, of_moments}, k);
+    constexpr int count = CurvedSide<double>::points;
+    // About its centre the motion is tangential, and its moments all are.
+    Eigen::Matrix2Xd turn(2, count);
+    for (int q = 0; q < count; ++q) {
+      const Point from_centre = side.at(q) - centre;
+      turn.col(q) = Point(-from_centre.y(), from_centre.x());
+    }
+    const Eigen::Matrix2Xd moments = side.moments(turn);
+    for (int j = 0; j <= k; ++j)
+      EXPECT_NEAR(moments.col(j).dot(of_moments[static_cast<std::size_t>(j)]), 0, 1e-8);
+    // Forces work on the moments of rigid motions as tractions on these.
+    const Eigen::Matrix2Xd forces = Eigen::Matrix2Xd::Random(2, k + 1);
+    Eigen::Matrix2Xd density(2, count);
+    for (int q = 0; q < count; ++q) density.col(q) = side.density(forces, q);
+    EXPECT_LT((side.forces(density) - forces).norm(), 1e-12 * forces.norm());
+    for (const auto& motion : rigid_motions()) {
+      double work = 0;
+      Eigen::Matrix2Xd u(2, count);
+      for (int q = 0; q < count; ++q) {
+        u.col(q) = motion(side.at(q));
+        work += CurvedSide<double>::weight(q) * density.col(q).dot(u.col(q));
+      }
+      EXPECT_NEAR(side.moments(u).cwiseProduct(forces).sum(), work, 1e-11 * forces.norm());
+    }
+  }
+}
+
+// Without a law the moments of rigid motions are those on the chord, and all are exact.
+TEST(CurvedSide, KnowsTheMomentsOfRigidMotions) {
+  const Point a(1, 0.5), b(3, 1);
+  const std::vector<Point> points = arc(a, b, 0.6);
+  for (int k = 2; k <= highest_stress_degree; ++k) {
+    const CurvedSide<double> side({points, {}, {}}, k);
+    for (const auto& motion : rigid_motions()) {
+      Eigen::Matrix2Xd u(2, CurvedSide<double>::points);
+      for (int q = 0; q < u.cols(); ++q) u.col(q) = motion(side.at(q));
+      const Eigen::Matrix2Xd moments = side.moments(u);
+      for (int j = 0; j <= k; ++j) {
+        const double s = (j + 1.) / (k + 2);
+        EXPECT_LT((moments.col(j) - motion((1 - s) * a + s * b)).norm(), 1e-12) << k << ' ' << j;
+      }
+    }
+  }
+}
+
 TEST(CurvedSide, MeasuresArcs) {
   const double turn = 0.6;
   const Point a(1, 0.5), b(3, 1), across(1.6, 2.7);
   const double radius = (b - a).norm() / (2 * std::sin(turn / 2)),
                segment = radius * radius * (turn - std::sin(turn)) / 2;
   const std::vector<Point> control = arc(a, b, turn);
-  const CurvedSide<double> side(control, 2);
+  const CurvedSide<double> side({control, {}, {}}, 2);
   double length = 0;
   for (int q = 0; q < CurvedSide<double>::points; ++q)
     length += CurvedSide<double>::weight(q) * side.normal(q).norm();

@@ -1,5 +1,6 @@
 #include "tests/support/quad.hpp"
 
+#include "assembly/elements/curved_element_templates.hpp"
 #include "assembly/elements/equilibrium_element_templates.hpp"
 #include "assembly/elements/reference_element_templates.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"

@@ -70,8 +70,8 @@ Judged judged(const Mesh& mesh, int degree, const PressedRing& ring = {}) {
           error.relative * std::sqrt(share), error.guaranteed};
 }
 
-TEST(GeometryError, IsWhatTheChordsOfRoundSidesCost) {
-  double worst_without = 1;
+// Of degree 1 with chords, of others with curves; that e alone says too little is below.
+TEST(GeometryError, MakesTheTotalErrorOfRoundBodiesTheirs) {
   for (const bool is_hole_held : {false, true})
     for (const double poisson : {0.3, 0.4999})
       for (int degree = 1; degree <= highest_stress_degree; ++degree)
@@ -81,9 +81,7 @@ TEST(GeometryError, IsWhatTheChordsOfRoundSidesCost) {
           EXPECT_GT(own.total, own.truth);
           EXPECT_LT(own.total, (poisson < 0.4 ? 3 : 5) * own.truth);
           EXPECT_FALSE(own.guaranteed);
-          worst_without = std::min(worst_without, own.without_geometry / own.truth);
         }
-  EXPECT_LT(worst_without, 0.9);  // e alone says too little
 }
 
 TEST(GeometryError, FallsAsChordsGetShorter) {

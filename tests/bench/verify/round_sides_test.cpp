@@ -32,13 +32,29 @@ Eigen::Vector3d pressed(const Point& x) {
   return from_polar((1 - q) / 3, (1 + q) / 3, 0, x);
 }
 
+// Its displacement with 1000 MPa.
+Point widened(const Point& x, double poisson) {
+  const double shear = 1000 / (2 * (1 + poisson));
+  return ((1 - 2 * poisson) + 4 / x.squaredNorm()) / (6 * shear) * x;
+}
+
+Mesh with_rim(Mesh mesh, BoundaryRole role) {
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (boundary_label(mesh, edge) == "force:rim") edge.role = role;
+  return mesh;
+}
+
 // With the tractions of the exact stress on both circles, rollers on the straight sides.
-Problem quarter(int around, int across, double outer_mm, const ExactStress& exact, double poisson) {
+Problem quarter(int around, int across, double outer_mm, const ExactStress& exact, double poisson,
+                BoundaryRole rim = BoundaryRole::force) {
   Mesh mesh = testing::quarter_ring(around, across, 1, outer_mm);
   EXPECT_EQ(recognise_arcs(mesh), 2 * around);
   Loads loads;
   for (const BoundaryEdge& edge : mesh.boundary)
     loads.rollers.push_back(edge.role == BoundaryRole::displacement);
+  mesh = with_rim(std::move(mesh), rim);
+  if (rim == BoundaryRole::displacement)
+    loads.displacement_mm = [poisson](const Point& x, int) { return widened(x, poisson); };
   loads.traction_MPa = [exact](const Point& x, const Point& n, int) {
     return traction(exact(x), n);
   };
@@ -80,18 +96,21 @@ Judged judged(const Problem& problem, int degree, const ExactStress& exact) {
   return result;
 }
 
-void expect_order(const ExactStress& exact, double outer_mm, int across, double poisson) {
+void expect_order(const ExactStress& exact, double outer_mm, int across, double poisson,
+                  BoundaryRole rim = BoundaryRole::force) {
   for (int degree = 2; degree <= highest_stress_degree; ++degree) {
     SCOPED_TRACE(::testing::Message() << "degree " << degree << ", Poisson " << poisson);
-    const Judged coarse = judged(quarter(4, across, outer_mm, exact, poisson), degree, exact),
-                 fine = judged(quarter(8, 2 * across, outer_mm, exact, poisson), degree, exact);
+    const Judged coarse = judged(quarter(4, across, outer_mm, exact, poisson, rim), degree, exact),
+                 fine =
+                     judged(quarter(8, 2 * across, outer_mm, exact, poisson, rim), degree, exact);
     const double order = std::log2(coarse.truth / fine.truth),
                  of_hole = std::log2(coarse.of_hole / fine.of_hole);
     EXPECT_GT(order, degree + 0.7);
     EXPECT_GT(of_hole, degree + 0.5);
     for (const Judged& own : {coarse, fine}) {
       EXPECT_GT(own.total, own.truth);
-      EXPECT_LT(own.total, (poisson < 0.4 ? 2.5 : 3) * own.truth);
+      const double most = poisson < 0.4 ? 2.5 : rim == BoundaryRole::force ? 3 : 6;
+      EXPECT_LT(own.total, most * own.truth);
     }
   }
 }
@@ -99,6 +118,57 @@ void expect_order(const ExactStress& exact, double outer_mm, int across, double 
 TEST(RoundSides, ARingUnderPressureIsOfFullOrder) {
   expect_order(pressed, 2, 2, 0.3);
   expect_order(pressed, 2, 2, 0.4999);
+}
+
+TEST(RoundSides, AHeldRimIsOfFullOrder) {
+  expect_order(pressed, 2, 2, 0.3, BoundaryRole::displacement);
+  expect_order(pressed, 2, 2, 0.4999, BoundaryRole::displacement);
+}
+
+// A ring of 1 to 2 mm in a socket that is 2 µm too small: the pressure is the same everywhere.
+TEST(RoundSides, ARingInASocketIsOfFullOrder) {
+  constexpr double young = 1000, poisson = 0.3, too_small = 0.002;
+  constexpr double pressure =
+      too_small * young * 3 / ((1 + poisson) * 2 * ((1 - 2 * poisson) * 4 + 1));
+  const auto exact = [](const Point& x) {
+    const double q = 1 / x.squaredNorm();
+    return from_polar(-pressure * 4 / 3 * (1 - q), -pressure * 4 / 3 * (1 + q), 0, x);
+  };
+  Scene scene;
+  scene.material = {young, poisson};
+  scene.wall = CircularWall{{0, 0}, 2 - too_small, CircularWall::Bodies::inside};
+  scene.displacement_mm = {0, 0};
+  for (const char* side : {"displacement:bottom", "displacement:left"})
+    scene.boundary[side].support = BoundaryValues::Support::normal;
+  for (const double friction : {0., 0.2})
+    for (int degree = 2; degree <= highest_stress_degree; ++degree) {
+      SCOPED_TRACE(::testing::Message() << "degree " << degree << ", friction " << friction);
+      scene.friction = friction;
+      std::vector<double> truth, of_pressure;
+      for (const int around : {4, 8}) {
+        Mesh mesh = testing::quarter_ring(around, around / 2, 1, 2);
+        EXPECT_EQ(recognise_arcs(mesh), 2 * around);
+        const testing::Solved solved(scene, with_rim(std::move(mesh), BoundaryRole::contact),
+                                     degree);
+        const ConstitutiveError error = solved.error();
+        EXPECT_EQ(error.flaw, "");
+        truth.push_back(true_error(*solved.system.problem, solved.hybrid.stress, exact));
+        EXPECT_GT(error.relative, truth.back());
+        EXPECT_LT(error.relative, 2.5 * truth.back());
+        const ContactPoints& points = solved.system.contact;
+        double worst = 0;
+        for (int p = 0; p < points.count; ++p) {
+          const EdgeFrame frame = solved.system.problem->frame_of_moment(points.boundary[p], degree,
+                                                                         p % points.per_edge);
+          worst = std::max(worst, std::abs(-(degree + 1) / frame.length_mm *
+                                               solved.hybrid.F_C(points.components * p) -
+                                           pressure));
+        }
+        of_pressure.push_back(worst / pressure);
+      }
+      EXPECT_GT(std::log2(truth[0] / truth[1]), degree + 0.7);
+      EXPECT_GT(std::log2(of_pressure[0] / of_pressure[1]), degree + 0.5);
+    }
 }
 
 TEST(RoundSides, AHoleUnderTensionIsOfFullOrder) { expect_order(stretched, 4, 4, 0.3); }
