@@ -12,6 +12,7 @@
 #include <cmath>
 #include <compare>
 #include <concepts>
+#include <cstdint>
 #include <limits>
 
 namespace airybench {
@@ -20,11 +21,14 @@ class DoubleDouble {
  public:
   DoubleDouble() = default;
   DoubleDouble(double value) : high_(value), low_(0) {}
-  DoubleDouble(std::integral auto value)
-      : high_(static_cast<double>(value)),
-        low_(static_cast<double>(value - static_cast<decltype(value)>(high_))) {}
-  template <typename Number>
-  requires std::integral<Number> || std::floating_point<Number>
+  DoubleDouble(std::integral auto value) : high_(static_cast<double>(value)), low_(0) {
+    if constexpr (sizeof(value) > sizeof(int)) {  // more bits than a double has
+      constexpr auto part = std::int64_t{1} << 32;
+      *this =
+          ordered_sum(static_cast<double>(value / part * part), static_cast<double>(value % part));
+    }
+  }
+  template <std::floating_point Number>
   explicit operator Number() const {
     return static_cast<Number>(high_) + static_cast<Number>(low_);
   }
