@@ -3,13 +3,14 @@
 // software, and two doubles are faster.
 #pragma once
 
+#include <cfloat>
 #include <limits>
 
 #include "support/double_double.hpp"
 
 namespace airybench {
 
-#if defined(__SIZEOF_FLOAT80__) && !defined(AIRYBENCH_DOUBLE_DOUBLE)
+#if LDBL_MANT_DIG == 64 && !defined(AIRYBENCH_DOUBLE_DOUBLE)
 using Wide = long double;
 #else
 using Wide = DoubleDouble;

