@@ -113,7 +113,7 @@ Eigen::Vector2d resultant_on(const Problem& problem, int row, const ForcesOnEdge
   const int degree = static_cast<int>(forces.cols()) - 1;
   if (problem.mesh.boundary[row].role != BoundaryRole::contact ||
       !problem.follows_curve(row, degree))
-    return forces.rowwise().sum();
+    return forces * Eigen::VectorXd::Ones(degree + 1);
   const CurvedSide<double> side(problem.curve_of(row, degree), degree);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (int q = 0; q < CurvedSide<double>::points; ++q)
