@@ -85,12 +85,8 @@ namespace {
 template <int k, typename Motion>
 Eigen::Matrix2Xd moments_of_motion(const Problem& problem, int row, const Motion& at) {
   Eigen::Matrix2Xd moments(2, k + 1);
-  if (problem.follows_curve(row, k)) {
-    const CurvedSide<double> side(problem.curve_of(row, k), k);
-    Eigen::Matrix2Xd u(2, CurvedSide<double>::points);
-    for (int q = 0; q < u.cols(); ++q) u.col(q) = at(side.at(q));
-    return side.moments(u);
-  }
+  if (problem.follows_curve(row, k))
+    return CurvedSide<double>(problem.curve_of(row, k), k).moments_of(at);
   const auto [start, end] = problem.mesh.boundary[row].vertices;
   const std::array<Eigen::Vector2d, 2> ends = {at(problem.mesh.vertices[start]),
                                                at(problem.mesh.vertices[end])};

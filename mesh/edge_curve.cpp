@@ -55,6 +55,11 @@ Eigen::Vector2d EdgeCurve::at(double t) const {
   return sum(LagrangeBasis<double>(degree(), t).value, points_mm);
 }
 
+Eigen::Vector2d EdgeCurve::normal(double t) const {
+  const Eigen::Vector2d tangent = derivative(t).normalized();
+  return {tangent.y(), -tangent.x()};
+}
+
 Eigen::Vector2d EdgeCurve::derivative(double t) const {
   return sum(LagrangeBasis<double>(degree(), t).derivative, points_mm);
 }

@@ -25,6 +25,7 @@ struct EdgeCurve {
   // Of a curve that is not straight.
   Eigen::Vector2d at(double t) const;
   Eigen::Vector2d derivative(double t) const;
+  Eigen::Vector2d normal(double t) const;  // of length 1, to the right of the walk
   // The part from x(first) to x(last), first < last; also beyond 0 and 1.
   EdgeCurve between(double first, double last) const;
   // Where the line through p along d meets the curve, or would beyond its ends; d is across it.

@@ -47,7 +47,7 @@ struct GaussPoints {
 
 // Columns: the normal and its tangent.
 template <typename Scalar>
-Eigen::Matrix2<Scalar> frame_of(const Eigen::Vector2<Scalar>& direction) {
+Eigen::Matrix2<Scalar> frame_from(const Eigen::Vector2<Scalar>& direction) {
   using std::sqrt;
   const Eigen::Vector2<Scalar> n = direction / sqrt(direction.squaredNorm());
   Eigen::Matrix2<Scalar> frame;
@@ -72,7 +72,7 @@ CurvePoint<Scalar>::CurvePoint(const SideCurve& curve, const Scalar& xi)
   tangent = sum(curve.points_mm, along.derivative);
   if (curve.law_normals.empty()) return;
   const LagrangeBasis<Scalar> law(static_cast<int>(curve.law_normals.size()) - 1, xi);
-  frame = curved_formulas::frame_of<Scalar>(sum(curve.law_normals, law.value));
+  frame = curved_formulas::frame_from<Scalar>(sum(curve.law_normals, law.value));
 }
 
 template <typename Scalar>
@@ -80,45 +80,30 @@ CurvedSide<Scalar>::CurvedSide(const SideCurve& curve, int degree)
     : degree_(degree),
       a_(curve.points_mm.front().cast<Scalar>()),
       b_(curve.points_mm.back().cast<Scalar>()) {
-  using std::sqrt;
-  Matrix values(points, degree + 1);  // exact: B_i B_j are of degree 2k
+  const int count = degree + 1;
+  std::vector<Eigen::Matrix2<Scalar>> fixed;  // R_jᵀ
+  for (const Eigen::Vector2d& normal : curve.moment_normals)
+    fixed.push_back(curved_formulas::frame_from<Scalar>(normal.cast<Scalar>()).transpose());
+  fixed.resize(static_cast<std::size_t>(count), Eigen::Matrix2<Scalar>::Identity());
+  Matrix pairing = Matrix::Zero(2 * count, 2 * count);
   for (int q = 0; q < points; ++q) {
     const CurvePoint<Scalar> point(curve, xi(q));
     at_[q] = point.at;
     normal_[q] = Vector(point.tangent.y(), -point.tangent.x());
-    for (int j = 0; j <= degree; ++j)
-      values(q, j) = sqrt(Scalar(degree + 1) * weight(q)) * bernstein_polynomial(degree, j, xi(q));
-    set_complex(q);
-  }
-  gram_ = GramRoot<Scalar>(values);
-  if (!curve.law_normals.empty()) set_law(curve);
-}
-
-template <typename Scalar>
-void CurvedSide<Scalar>::set_law(const SideCurve& curve) {
-  const int count = degree_ + 1;
-  std::vector<Eigen::Matrix2<Scalar>> fixed;
-  for (const Eigen::Vector2d& normal : curve.moment_normals)
-    fixed.push_back(curved_formulas::frame_of<Scalar>(normal.cast<Scalar>()).transpose());
-  for (int q = 0; q < points; ++q) {
-    const Eigen::Matrix2<Scalar> frame = CurvePoint<Scalar>(curve, xi(q)).frame;
-    law_[q].resize(2, 2 * count);
+    set_test(q);
+    density_[q].resize(2, 2 * count);
     for (int j = 0; j < count; ++j)
-      law_[q].middleCols(2 * j, 2) =
-          Scalar(count) * bernstein_polynomial(degree_, j, xi(q)) * frame.lazyProduct(fixed[j]);
+      density_[q].middleCols(2 * j, 2) = Scalar(count) * bernstein_polynomial(degree, j, xi(q)) *
+                                         point.frame.lazyProduct(fixed[j]);
+    pairing += weight(q) * test_[q].transpose().lazyProduct(density_[q]);
   }
-  to_complex_.resize(2 * count, 2 * count);
-  for (int i = 0; i < 2 * count; ++i) {
-    Eigen::Matrix2X<Scalar> density(2, points);
-    for (int q = 0; q < points; ++q) density.col(q) = law_[q].col(i);
-    to_complex_.col(i) = complex_forces(density).reshaped();
-  }
-  of_law_ = GramRoot<Scalar>(to_complex_);
+  pairing_.compute(pairing);
+  pairing_transposed_ = pairing.transpose();
 }
 
 // Columns: B_j(ẑ) and i B_j(ẑ).
 template <typename Scalar>
-void CurvedSide<Scalar>::set_complex(int q) {
+void CurvedSide<Scalar>::set_test(int q) {
   const Vector chord = b_ - a_, from_a = at_[q] - a_;
   const Scalar square = chord.squaredNorm();
   const Vector z(from_a.dot(chord) / square,
@@ -126,13 +111,13 @@ void CurvedSide<Scalar>::set_complex(int q) {
   const auto times = [](const Vector& u, const Vector& v) {
     return Vector(u.x() * v.x() - u.y() * v.y(), u.x() * v.y() + u.y() * v.x());
   };
-  complex_[q].resize(2, 2 * (degree_ + 1));
+  test_[q].resize(2, 2 * (degree_ + 1));
   for (int j = 0; j <= degree_; ++j) {
     Vector value(Scalar(binomial(degree_, j)), Scalar(0));
     for (int i = 0; i < j; ++i) value = times(value, z);
     for (int i = j; i < degree_; ++i) value = times(value, Vector(1 - z.x(), -z.y()));
-    complex_[q].col(2 * j) = value;
-    complex_[q].col(2 * j + 1) = Vector(-value.y(), value.x());
+    test_[q].col(2 * j) = value;
+    test_[q].col(2 * j + 1) = Vector(-value.y(), value.x());
   }
 }
 
@@ -147,53 +132,33 @@ const Scalar& CurvedSide<Scalar>::weight(int q) {
 }
 
 template <typename Scalar>
-Eigen::Matrix2X<Scalar> CurvedSide<Scalar>::complex_forces(
-    const Eigen::Matrix2X<Scalar>& density) const {
-  Matrix moments = Matrix::Zero(degree_ + 1, 2);
+Eigen::VectorX<Scalar> CurvedSide<Scalar>::tested(const Eigen::Matrix2X<Scalar>& field) const {
+  Eigen::VectorX<Scalar> sum = Eigen::VectorX<Scalar>::Zero(2 * (degree_ + 1));
   for (int q = 0; q < points; ++q)
-    for (int j = 0; j <= degree_; ++j)
-      for (int x = 0; x < 2; ++x)
-        moments(j, x) += weight(q) * complex_[q].col(2 * j + x).dot(density.col(q));
-  for (int x = 0; x < 2; ++x) gram_.solve(&moments(0, x));
-  return moments.transpose();
+    sum += weight(q) * test_[q].transpose().lazyProduct(field.col(q));
+  return sum;
 }
 
 template <typename Scalar>
 Eigen::Matrix2X<Scalar> CurvedSide<Scalar>::forces(const Eigen::Matrix2X<Scalar>& density) const {
-  Eigen::Matrix2X<Scalar> forces = complex_forces(density);
-  if (to_complex_.size() > 0) {
-    Eigen::VectorX<Scalar> own = to_complex_.transpose().lazyProduct(forces.reshaped());
-    of_law_.solve(own.data());
-    forces.reshaped() = own;
-  }
-  return forces;
+  return pairing_.solve(tested(density)).reshaped(2, degree_ + 1);
 }
 
 template <typename Scalar>
 Eigen::Matrix2X<Scalar> CurvedSide<Scalar>::moments(
     const Eigen::Matrix2X<Scalar>& displacement) const {
   using std::sqrt;
-  const int size = 2 * (degree_ + 1);
-  Eigen::VectorX<Scalar> best = Eigen::VectorX<Scalar>::Zero(size);
-  Matrix rows(2 * points, size);
-  for (int q = 0; q < points; ++q) {
-    for (int j = 0; j < size; ++j)
-      best(j) += weight(q) * complex_[q].col(j).dot(displacement.col(q));
-    rows.middleRows(2 * q, 2) = sqrt(weight(q)) * complex_[q];
-  }
+  Matrix rows(2 * points, 2 * (degree_ + 1));
+  for (int q = 0; q < points; ++q) rows.middleRows(2 * q, 2) = sqrt(weight(q)) * test_[q];
+  Eigen::VectorX<Scalar> best = tested(displacement);
   GramRoot<Scalar>(std::move(rows)).solve(best.data());
-  const Matrix& R = gram_.R();
-  Eigen::Matrix2X<Scalar> moments =
-      best.reshaped(2, degree_ + 1).lazyProduct(R.transpose()).eval().lazyProduct(R);
-  if (to_complex_.size() > 0)
-    moments.reshaped() = to_complex_.transpose().lazyProduct(moments.reshaped()).eval();
-  return moments;
+  return pairing_transposed_.lazyProduct(best).reshaped(2, degree_ + 1);
 }
 
 template <typename Scalar>
 typename CurvedSide<Scalar>::Vector CurvedSide<Scalar>::density(
     const Eigen::Matrix2X<Scalar>& forces, int q) const {
-  return law_[q].lazyProduct(forces.reshaped());
+  return density_[q].lazyProduct(forces.reshaped());
 }
 
 template <typename Scalar>
@@ -225,19 +190,10 @@ typename CurvedSide<Scalar>::Matrix CurvedSide<Scalar>::stress_forces(
     const Vector n = weight(q) * normal_[q];
     Eigen::Matrix<Scalar, 2, 3> to_traction;
     to_traction << n.x(), 0, n.y(), 0, n.y(), n.x();
-    const Matrix of_one = complex_[q].transpose().lazyProduct(to_traction);
+    const Matrix of_one = test_[q].transpose().lazyProduct(to_traction);
     for (int i = 0; i < count; ++i) moments.middleCols(3 * i, 3) += value(i) * of_one;
   }
-  for (auto column : moments.colwise()) {
-    Matrix own = column.reshaped(2, degree_ + 1).transpose();
-    for (int x = 0; x < 2; ++x) gram_.solve(&own(0, x));
-    column = own.transpose().reshaped();
-    if (to_complex_.size() == 0) continue;
-    Eigen::VectorX<Scalar> of_law = to_complex_.transpose().lazyProduct(column);
-    of_law_.solve(of_law.data());
-    column = of_law;
-  }
-  return moments;
+  return pairing_.solve(moments);
 }
 
 template <typename Scalar>

@@ -2,22 +2,23 @@
 // and b of the triangle. N = (y′, −x′) is its outward normal times the length per unit of ξ.
 //
 // Forces of a density q dξ on it (the traction σN; a load f |x′|), and the moments of displacements
-// that they work on, belong to complex polynomials on the chord, continued to the curve:
+// that they work on, are tested with complex polynomials on the chord, continued to the curve; x
+// and y are real and imaginary parts:
 //
-//   F_j = (G⁻¹ m)_j,   m_j = ∫ conj(B_j(ẑ)) q dξ,   G_ij = (k + 1) ∫ B_i B_j dξ,
-//   ẑ = (z(ξ) − z_a)/(z_b − z_a)
+//   q = Σ_j Q_j F_j,   Q_j = (k + 1) B_j(ξ),   m_i = ∫ conj(T_i) q dξ,   T_i = B_i(ẑ),
+//   ẑ = (z(ξ) − z_a)/(z_b − z_a),   P_ij = ∫ conj(T_i) Q_j dξ,   F = P⁻¹ m,   ū = Pᵀ c
 //
-// with x and y as real and imaginary parts. On a straight side they are those of
+// where Σ T_i c_i is the best approximation of u. On a straight side these are F and ū of
 // equilibrium_element.hpp. On any curve they have all rigid motions, whose moments are those on the
 // chord; walked the other way j becomes k − j.
 //
 // Under a contact law a density is a polynomial in its frames along the curve, R(ξ) = (n, t),
 //
-//   q = (k + 1) Σ B_j(ξ) R(ξ) R_jᵀ F_j,   ū_j = (k + 1) ∫ B_j(ξ) R_j R(ξ)ᵀ u dξ
+//   Q_j = (k + 1) B_j(ξ) R(ξ) R_jᵀ
 //
 // with fixed frames R_j, in which F_j are pressure and friction, ū_j normal and tangential motion.
-// With the complex F and ū of above, F_complex = M F and ū = Mᵀ ū_complex: all rigid motions are
-// still there. Normals between those given are their interpolant's.
+// The test functions stay, and with them the rigid motions. Normals between those given are their
+// interpolant's.
 //
 // The third of the triangle on this side, up to the centroid V4 of the corners, has the points
 // V4 + ρ (x(ξ) − V4), 0 ≤ ρ ≤ 1. Stresses on it are the polynomials of the straight third.
@@ -26,6 +27,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <array>
 #include <span>
 
@@ -68,13 +70,18 @@ class CurvedSide {
   static const Scalar& xi(int q);
   static const Scalar& weight(int q);
 
-  // F of a density at the points, columns, times dξ: k + 1 columns. Under a contact law that of the
-  // polynomial with the same complex F.
+  // F of a density at the points, columns, times dξ: k + 1 columns.
   Eigen::Matrix2X<Scalar> forces(const Eigen::Matrix2X<Scalar>& density) const;
-  // ū of displacements at the points: of their best approximation by the complex polynomials, which
-  // rigid motions are.
+  // ū of displacements at the points.
   Eigen::Matrix2X<Scalar> moments(const Eigen::Matrix2X<Scalar>& displacement) const;
-  // Under a contact law the density of F at a point, the traction times |x′|.
+  // ū of u(x).
+  template <typename Displacement>
+  Eigen::Matrix2X<Scalar> moments_of(const Displacement& u) const {
+    Eigen::Matrix2X<Scalar> displacement(2, points);
+    for (int q = 0; q < points; ++q) displacement.col(q) = u(at_[q]);
+    return moments(displacement);
+  }
+  // q of F at a point: the traction times |x′|.
   Vector density(const Eigen::Matrix2X<Scalar>& forces, int q) const;
   // F of the stresses B_i xx, B_i yy, B_i xy of the third: rows as F by columns, columns 3 i + 0,
   // 1, 2.
@@ -90,18 +97,16 @@ class CurvedSide {
   Eigen::VectorX<Scalar> bernstein(const Vector& centroid, int q, const Scalar& rho) const;
 
  private:
-  void set_complex(int q);
-  Eigen::Matrix2X<Scalar> complex_forces(const Eigen::Matrix2X<Scalar>& density) const;
-  void set_law(const SideCurve& curve);
+  void set_test(int q);
+  Eigen::VectorX<Scalar> tested(const Eigen::Matrix2X<Scalar>& field) const;  // m
 
   int degree_;
   Vector a_, b_;
   std::array<Vector, points> at_, normal_;
-  std::array<Matrix, points> complex_;  // 2 × 2(k + 1): m = Σ complexᵀ q dξ
-  GramRoot<Scalar> gram_;               // of G
-  std::array<Matrix, points> law_;      // q = law F
-  Matrix to_complex_;                   // M; none: no contact law
-  GramRoot<Scalar> of_law_;             // of MᵀM
+  std::array<Matrix, points> test_;      // 2 × 2(k + 1), columns T_i: m_i = ∫ T_i·q dξ
+  std::array<Matrix, points> density_;   // q = density F
+  Eigen::PartialPivLU<Matrix> pairing_;  // P
+  Matrix pairing_transposed_;
 };
 
 extern template struct CurvePoint<double>;

@@ -179,7 +179,7 @@ ContactGap contact_gap(const ReachableContact& contact, const Scene& scene) {
 std::vector<ContactNormals> contact_normals(const ReachableContact& contact, const Scene& scene) {
   const Mesh& mesh = contact.mesh;
   std::vector<ContactNormals> normals(mesh.boundary.size());
-  bool own = true;
+  bool are_own = true;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
     const EdgeValues values = values_of(mesh, row, scene);
@@ -191,25 +191,19 @@ std::vector<ContactNormals> contact_normals(const ReachableContact& contact, con
       return values.face ? normal_of_curve(*values.face, x, m) : m;
     };
     constexpr double rounding = 1e-12;
-    for (int n = 1; n <= ContactNormals::most_parts; ++n)
-      for (int i = 0; i <= n; ++i) {
-        Eigen::Vector2d& normal = normals[static_cast<std::size_t>(row)].at(i, n);
-        const auto& matched = contact.matched[row];
-        normal = matched ? matched->normals.at(i, n) : at(((n - i) * a + i * b) / n);
-        own &= (normal - m).norm() <= rounding;
-      }
+    ContactNormals& along = normals[static_cast<std::size_t>(row)];
+    const auto& matched = contact.matched[row];
+    along = matched ? matched->normals
+                    : ContactNormals::along([&](double s) { return at((1 - s) * a + s * b); });
+    for (const Eigen::Vector2d& normal : along.all()) are_own &= (normal - m).norm() <= rounding;
   }
-  if (own) normals.clear();
+  if (are_own) normals.clear();
   return normals;
 }
 
 std::vector<ContactNormals> curve_normals(const ReachableContact& contact, const Scene& scene) {
   const Mesh& mesh = contact.mesh;
   std::vector<ContactNormals> normals;
-  const auto own = [&](int row, double xi) {
-    const Eigen::Vector2d tangent = mesh.boundary[row].curve.derivative(xi).normalized();
-    return Eigen::Vector2d(tangent.y(), -tangent.x());
-  };
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
     if (edge.role != BoundaryRole::contact || edge.curve.is_straight()) continue;
@@ -217,15 +211,14 @@ std::vector<ContactNormals> curve_normals(const ReachableContact& contact, const
     if (matched && mesh.boundary[matched->opposite].curve.is_straight()) continue;
     const EdgeValues values = values_of(mesh, row, scene);
     const auto at = [&](double xi) -> Eigen::Vector2d {
-      if (matched) return (own(row, xi) - own(matched->opposite, 1 - xi)).normalized();
+      const Eigen::Vector2d n = edge.curve.normal(xi);
+      if (matched) return (n - mesh.boundary[matched->opposite].curve.normal(1 - xi)).normalized();
       const Eigen::Vector2d x = edge.curve.at(xi);
       if (values.wall) return facing(mesh, row, values).direction_at(x);
-      return values.face ? normal_of_curve(*values.face, x, own(row, xi)) : own(row, xi);
+      return values.face ? normal_of_curve(*values.face, x, n) : n;
     };
     normals.resize(mesh.boundary.size());
-    for (int n = 1; n <= ContactNormals::most_parts; ++n)
-      for (int i = 0; i <= n; ++i)
-        normals[static_cast<std::size_t>(row)].at(i, n) = at(static_cast<double>(i) / n);
+    normals[static_cast<std::size_t>(row)] = ContactNormals::along(at);
   }
   return normals;
 }

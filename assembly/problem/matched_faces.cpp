@@ -105,7 +105,7 @@ class PairedEdges {
     const auto at = [](const std::array<Point, 2>& ends, double s) -> Point {
       return (1 - s) * ends[0] + s * ends[1];
     };
-    for (int parts = 1; parts <= ContactNormals::most_parts; ++parts)
+    for (int parts = 1; parts <= ContactNormals::max_parts; ++parts)
       for (int i = 0; i <= parts; ++i) {
         const Point normal = at(n, static_cast<double>(i) / parts).normalized();
         of_first.normals.at(i, parts) = normal;

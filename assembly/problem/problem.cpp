@@ -86,7 +86,7 @@ SideCurve Problem::curve_of(int boundary_row, int degree) const {
   SideCurve curve{edge.curve.points_mm, {}, {}};
   if (edge.role == BoundaryRole::contact) {
     const ContactNormals& normals = curve_normals[boundary_row];
-    curve.law_normals = normals.all(ContactNormals::most_parts);
+    curve.law_normals = normals.all(ContactNormals::max_parts);
     curve.moment_normals = normals.all(degree + 2).subspan(1, static_cast<std::size_t>(degree) + 1);
   }
   return curve;
@@ -122,12 +122,9 @@ EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
   EdgeMoments moments = EdgeMoments::Zero(2, degree + 1);
   const auto& u0 = loads.displacement_mm;
   if (!u0) return moments;
-  if (follows_curve(boundary_row, degree)) {
-    const CurvedSide<double> side(curve_of(boundary_row, degree), degree);
-    Eigen::Matrix2Xd u(2, CurvedSide<double>::points);
-    for (int q = 0; q < u.cols(); ++q) u.col(q) = u0(side.at(q), boundary_row);
-    return side.moments(u);
-  }
+  if (follows_curve(boundary_row, degree))
+    return CurvedSide<double>(curve_of(boundary_row, degree), degree)
+        .moments_of([&](const Eigen::Vector2d& x) { return u0(x, boundary_row); });
   const auto [start, end] = mesh.boundary[boundary_row].vertices;
   const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
   const std::array<Eigen::Vector2d, 3> coefficients =
@@ -144,6 +141,9 @@ void find_round_sides(Problem& problem) {
   const Mesh& mesh = problem.mesh;
   problem.round.clear();
   problem.round_rows.clear();
+  if (std::ranges::all_of(mesh.boundary,
+                          [](const BoundaryEdge& edge) { return edge.curve.is_straight(); }))
+    return;
   std::vector<int> row_of_edge(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
     if (may_follow_curve(problem, row)) row_of_edge[problem.edges.of_boundary[row]] = row;

@@ -69,20 +69,29 @@ struct EdgeCondition {
 // wall all are equal.
 class ContactNormals {
  public:
-  static constexpr int most_parts = highest_stress_degree + 2;
+  static constexpr int max_parts = highest_stress_degree + 2;
   ContactNormals() { normals_.fill(Eigen::Vector2d::Zero()); }
-  Eigen::Vector2d& at(int i, int n) { return normals_[place(i, n)]; }  // 0 ≤ i ≤ n ≤ most_parts
+  Eigen::Vector2d& at(int i, int n) { return normals_[place(i, n)]; }  // 0 ≤ i ≤ n ≤ max_parts
   const Eigen::Vector2d& at(int i, int n) const { return normals_[place(i, n)]; }
+  // direction(i/n) everywhere.
+  template <typename Direction>
+  static ContactNormals along(const Direction& direction) {
+    ContactNormals normals;
+    for (int n = 1; n <= max_parts; ++n)
+      for (int i = 0; i <= n; ++i) normals.at(i, n) = direction(static_cast<double>(i) / n);
+    return normals;
+  }
   std::span<const Eigen::Vector2d> all(int n) const {
     return {&at(0, n), static_cast<std::size_t>(n) + 1};
   }
+  std::span<const Eigen::Vector2d> all() const { return normals_; }
   bool operator==(const ContactNormals&) const = default;
 
  private:
   static constexpr std::size_t place(int i, int n) {
     return static_cast<std::size_t>((n - 1) * (n + 2) / 2 + i);
   }
-  std::array<Eigen::Vector2d, most_parts*(most_parts + 3) / 2> normals_;
+  std::array<Eigen::Vector2d, max_parts*(max_parts + 3) / 2> normals_;
 };
 
 // Rollers are parallel if the sine between their directions is smaller.

@@ -1,6 +1,7 @@
 // Polynomials along an edge of Γ_C, by their Bernstein coefficients from the start of its walk on.
 #pragma once
 
+#include <Eigen/LU>
 #include <array>
 #include <limits>
 
@@ -12,6 +13,23 @@ namespace airybench {
 
 using AlongEdge =
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, highest_stress_degree + 2>;
+
+// Of the pressure, MPa, from the normal components of F_j, N. On a curve, where it is (k + 1) Σ B_j
+// F_j/|x′|, of its interpolant at ξ = j/k.
+inline AlongEdge pressure_along(const Problem& problem, int row, const AlongEdge& normal_forces) {
+  const int k = static_cast<int>(normal_forces.size()) - 1;
+  const AlongEdge densities = -(k + 1) * normal_forces;
+  if (!problem.follows_curve(row, k)) return densities / problem.frame_at(row, 0, 1).length_mm;
+  Eigen::MatrixXd values(k + 1, k + 1);
+  Eigen::VectorXd pressure(k + 1);
+  for (int q = 0; q <= k; ++q) {
+    const double xi = static_cast<double>(q) / k;
+    for (int j = 0; j <= k; ++j) values(q, j) = bernstein_polynomial(k, j, xi);
+    pressure(q) =
+        values.row(q).dot(densities) / problem.mesh.boundary[row].curve.derivative(xi).norm();
+  }
+  return values.partialPivLu().solve(pressure).transpose();
+}
 
 struct LargestValue {
   double value = -std::numeric_limits<double>::infinity();

@@ -106,17 +106,18 @@ LargestPressure largest_pressure(const Problem& problem, const StressField& stre
     for (int k = 0; k < 3; ++k) {
       const int row = contact_row[problem.edges.of_triangle[t][k]];
       if (row < 0) continue;
-      EdgeFrame frame = frame_of(problem.mesh, row);
-      AlongEdge pressure(stress.degree() + 1);
       const bool is_curved = problem.follows_curve(row, stress.degree());
       const ForcesOnEdge forces = is_curved
                                       ? curved_edge_forces(problem.vertices_of(t), stress[t], k,
                                                            problem.curve_of(row, stress.degree()))
                                       : element_edge_forces(problem.vertices_of(t), stress[t], k);
+      EdgeFrame frame = frame_of(problem.mesh, row);
+      AlongEdge normal_forces(stress.degree() + 1);
       for (int j = 0; j <= stress.degree(); ++j) {
         if (is_curved) frame = problem.frame_of_moment(row, stress.degree(), j);
-        pressure(j) = -(stress.degree() + 1) / frame.length_mm * frame.normal.dot(forces.col(j));
+        normal_forces(j) = frame.normal.dot(forces.col(j));
       }
+      const AlongEdge pressure = pressure_along(problem, row, normal_forces);
       peak.of_edge_MPa = std::max(peak.of_edge_MPa, pressure.mean());
       const double largest = largest_value(pressure, {peak.pressure_MPa}).value;
       if (largest > peak.pressure_MPa) {

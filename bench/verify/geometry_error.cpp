@@ -19,10 +19,7 @@ struct TrueSide {
 
   bool is_edge() const { return !curve && !supposed; }
   Eigen::Vector2d normal_at(double s, const EdgeFrame& chord) const {
-    if (curve) {
-      const Eigen::Vector2d tangent = curve->derivative(s).normalized();
-      return {tangent.y(), -tangent.x()};
-    }
+    if (curve) return curve->normal(s);
     const double angle = (1 - s) * supposed->from_rad + s * supposed->to_rad;
     return std::cos(angle) * chord.normal + std::sin(angle) * chord.tangent;
   }

@@ -31,11 +31,9 @@ class Face {
     is_closed_ = mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
     for (const int row : rows) {
       const double length = system.problem->frame_at(row, 0, 1).length_mm;
-      AlongEdge pressure(n);
-      for (int j = 0; j < n; ++j)
-        pressure(j) = -n / system.problem->frame_of_moment(row, system.degree, j).length_mm *
-                      F_C(m * (point_of_row[row] + j));
-      edges_.push_back({row, length_, length, pressure});
+      AlongEdge normal_forces(n);
+      for (int j = 0; j < n; ++j) normal_forces(j) = F_C(m * (point_of_row[row] + j));
+      edges_.push_back({row, length_, length, pressure_along(*system.problem, row, normal_forces)});
       length_ += length;
       if (const LargestValue largest = largest_value(edges_.back().pressure, {highest_});
           largest.value > highest_) {

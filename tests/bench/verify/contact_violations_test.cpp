@@ -66,7 +66,7 @@ TEST(ContactViolations, AVertexBetweenTwoWallsCountsForTheNearerToItsLaw) {
   const int vertex = turned.mesh.boundary[first].vertices[1];
   turned.contact_normals.resize(turned.mesh.boundary.size());
   for (int row = 0; row < static_cast<int>(turned.mesh.boundary.size()); ++row)
-    for (int n = 1; n <= ContactNormals::most_parts; ++n)
+    for (int n = 1; n <= ContactNormals::max_parts; ++n)
       for (int i = 0; i <= n; ++i)
         turned.contact_normals[row].at(i, n) =
             Eigen::Vector2d(1, row == first ? 0.2 : -0.2).normalized();
