@@ -9,6 +9,8 @@
 #include "meshgen/check.hpp"
 #include "meshgen/checksums.hpp"
 #include "meshgen/convert.hpp"
+#include "meshgen/deck_scene.hpp"
+#include "meshgen/gmsh_input.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/in_a_child.hpp"
 #include "meshgen/last_words.hpp"
@@ -176,6 +178,23 @@ int show_command(const std::filesystem::path& model, const ModelOptions& options
     throw FileError(fmt::format("{}: no picture (Debian: python3-matplotlib, python3-pandas): {}",
                                 out.string(), last_line_of(end.err)));
   fmt::print("picture: {}\n", out.string());
+  return 0;
+}
+
+int scene_command(const std::filesystem::path& deck) {
+  if (format_of(deck) != ModelFormat::abaqus)
+    throw std::invalid_argument(fmt::format("--scene: '{}' (allowed: an .inp)", deck.string()));
+  try {
+    const std::optional<DeckScene> scene = scene_of(read_deck_of(deck));
+    if (!scene) return 0;
+    for (const std::string& note : scene->notes)
+      fmt::print(stderr, "note: {}: {}\n", deck.string(), note);
+    fmt::print("{}", scene->json);
+  } catch (const FileError&) {
+    throw;
+  } catch (const InputError& error) {
+    throw FileError(fmt::format("{}: {}", deck.string(), error.what()));
+  }
   return 0;
 }
 

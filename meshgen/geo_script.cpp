@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "mesh/model_format.hpp"
+#include "meshgen/deck_blocks.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
 #include "support/gzip.hpp"
@@ -128,6 +129,8 @@ GeoScript what_is_read(const std::filesystem::path& model) {
     script = read_geo_script(model);
   else
     script.files = {model};
+  if (format_of(model) == ModelFormat::abaqus && includes_files(script_text(model)))
+    script.is_self_contained = false;
   const std::filesystem::path options = model.string() + ".opt";
   std::error_code error;
   if (std::filesystem::exists(options, error)) read_into(script, options, file_text(options));

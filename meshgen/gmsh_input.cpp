@@ -8,7 +8,7 @@
 #include <string>
 
 #include "mesh/model_format.hpp"
-#include "meshgen/abaqus.hpp"
+#include "meshgen/deck_scene.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
@@ -105,6 +105,15 @@ void check_brep(const std::string& text) {
   throw InputError("its end is missing; is it truncated?");
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& model) {
+  return std::filesystem::absolute(model).parent_path();
+}
+
+void refuse_utf16(const std::string& text) {
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw InputError("it is UTF-16 text (allowed: UTF-8)");
+}
+
 bool is_ascii(const std::string& text) {
   const std::size_t version = text.find('\n') + 1;
   return text.substr(version, text.find('\n', version) - version).find(" 0 ") != text.npos;
@@ -124,8 +133,7 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
     return;
   }
   const bool is_binary = text.find('\0') != text.npos;
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw InputError("it is UTF-16 text (allowed: UTF-8)");
+  refuse_utf16(text);
   const auto give = [&](const std::filesystem::path& name, const std::string& other) {
     file_ = folder_.path() / name;
     write_file_atomically(file_, other);
@@ -140,7 +148,8 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
       including += fmt::format("Include \"{}.opt\";\n", whole.string());
     give("including.geo", including);
   } else if (format == ModelFormat::abaqus) {
-    give(mesh_name, msh_of_abaqus(tidied(text, true)));
+    const Deck deck = read_deck(tidied(text, true), folder_of(model));
+    give(mesh_name, msh_of(deck, curves_of(deck)));
   } else if (format == ModelFormat::mesh || format == ModelFormat::outline) {
     const bool is_outline = format == ModelFormat::outline;
     const std::string tidy = tidied(text, !is_outline);
@@ -160,6 +169,12 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
     const std::string readable = is_ascii(mesh) ? as_gmsh_wants(mesh) : mesh;
     if (readable != text && readable != text + "\n") give(mesh_name, readable);
   }
+}
+
+Deck read_deck_of(const std::filesystem::path& model) {
+  const std::string text = is_gzipped(model) ? unpacked_text(model) : file_text(model);
+  refuse_utf16(text);
+  return read_deck(tidied(text, true), folder_of(model));
 }
 
 }  // namespace airybench

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "meshgen/deck.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace airybench {
@@ -20,5 +21,8 @@ class GmshInput {
   TemporaryFolder folder_;
   std::filesystem::path file_;
 };
+
+// An .inp, or what an .inp.gz holds. Throws InputError, without the file's name.
+Deck read_deck_of(const std::filesystem::path& model);
 
 }  // namespace airybench

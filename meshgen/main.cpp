@@ -22,7 +22,7 @@
 namespace {
 
 struct Arguments {
-  std::string selection, model, to_show, to_modify, out;
+  std::string selection, model, to_show, deck, to_modify, out;
   bool check = false, tooth = false;
   std::string repository = airybench::data_folder("meshes");
   airybench::ToothDimensions dimensions;
@@ -34,7 +34,8 @@ struct Arguments {
   std::string mesh_size, length_unit;
 };
 
-constexpr std::array modes = {"--mesh", "--check", "--tooth", "--convert", "--show", "--modify"};
+constexpr std::array modes = {"--mesh", "--check", "--tooth", "--convert",
+                              "--show", "--scene", "--modify"};
 
 void declare_modify(CLI::App& app, CLI::Option* modify, Arguments& a) {
   const auto option = [&](const char* name, auto& value, const char* type, const char* help) {
@@ -96,6 +97,9 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--show", a.to_show,
                  "Print a model's curves as a table and draw them with their numbers")
       ->type_name("MODEL")
+      ->group(what);
+  app.add_option("--scene", a.deck, "Print what an input deck (.inp) prescribes as a scene")
+      ->type_name("DECK")
       ->group(what);
   auto* modify =
       app.add_option("--modify", a.to_modify, "Change a mesh: a .msh file or one of Mesh0..Mesh7")
@@ -197,7 +201,7 @@ void check_usage(const CLI::App& app, const Arguments& a) {
 }
 
 std::string subject_of(const Arguments& a) {
-  for (const std::string& given : {a.model, a.to_show, a.to_modify, a.selection})
+  for (const std::string& given : {a.model, a.to_show, a.deck, a.to_modify, a.selection})
     if (!given.empty()) return given;
   return a.tooth ? a.out : "the repository's meshes";
 }
@@ -216,6 +220,7 @@ int run(const CLI::App& app, const Arguments& a) {
   if (app.count("--show") > 0)
     return airybench::show_command(
         a.to_show, options, a.out.empty() ? airybench::model_name(a.to_show) + ".png" : a.out);
+  if (app.count("--scene") > 0) return airybench::scene_command(a.deck);
   if (app.count("--modify") > 0)
     return airybench::modify_command(a.to_modify, a.repository, transform_of(a), layers_of(a),
                                      a.out);

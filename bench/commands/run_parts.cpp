@@ -15,6 +15,7 @@
 #include "bench/plan/scene_file.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/problems/problem_files.hpp"
+#include "mesh/model_format.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/selection.hpp"
 #include "support/called_as.hpp"
@@ -28,6 +29,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of the only mesh, if it is an input deck with one.
+std::optional<SceneFile> scene_of_own_deck(const RunSettings& run) {
+  const std::vector<std::string> items = expand_mesh_selection(run.meshes);
+  if (items.size() != 1 || !run.model_settings.empty() || !is_mesh_file(items.front()) ||
+      format_of(items.front()) != ModelFormat::abaqus)
+    return {};
+  const std::string text = scene_of_deck(items.front());
+  if (text.empty()) return {};
+  SceneFile own = scene_file_of(text, items.front());
+  own.scene.name = model_name(items.front());
+  return own;
+}
+
+void note_unused_deck(const RunSettings& run) {
+  for (const std::string& item : expand_mesh_selection(run.meshes))
+    if (is_mesh_file(item) && format_of(item) == ModelFormat::abaqus)
+      std::cerr << fmt::format(
+          "note: {}: its mesh alone is read; materials, supports, loads and contact are the "
+          "scene's\n",
+          item);
+}
+
 std::vector<SceneFile> read_scenes(const RunSettings& run) {
   std::vector<SceneFile> scenes;
   for (const fs::path& file : run.scenes.empty() ? scenes_of(run.study) : run.scenes) {
@@ -39,6 +62,9 @@ std::vector<SceneFile> read_scenes(const RunSettings& run) {
                                      other.scene.source, scene.source));
     scenes.push_back(std::move(added));
   }
+  if (scenes.empty())
+    if (std::optional<SceneFile> own = scene_of_own_deck(run)) return {std::move(*own)};
+  note_unused_deck(run);
   if (scenes.empty()) scenes.emplace_back();
   return scenes;
 }

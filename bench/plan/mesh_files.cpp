@@ -65,7 +65,7 @@ std::string complaint_of(const ProgramEnd& end) {
 }
 
 // bench does not link Gmsh, so meshgen reads models in a separate process; its notes go to standard
-// error. mode: --convert, --show; settings: options of these. Throws FileError.
+// error. mode: --convert, --show, --scene; settings: options of these. Throws FileError.
 std::string said_of_model(const std::string& mode, const std::filesystem::path& model,
                           const std::vector<std::string>& settings) {
   const auto program = converter_program();
@@ -74,7 +74,7 @@ std::string said_of_model(const std::string& mode, const std::filesystem::path& 
         fmt::format("{}: a Gmsh model, but there is no {} next to this program (Debian: "
                     "install libgmsh-dev and build again, as ./run bench does)",
                     model.string(), converter));
-  std::vector<std::string> arguments = {mode + "=" + model.string(), "--out=-"};
+  std::vector<std::string> arguments = {mode + "=" + model.string()};
   arguments.insert(arguments.end(), settings.begin(), settings.end());
   ProgramEnd end = run_program(*program, arguments, time_limit_s);
   if (end.timed_out)
@@ -88,10 +88,15 @@ std::string said_of_model(const std::string& mode, const std::filesystem::path& 
 
 using Settings = std::vector<std::string>;
 
+Settings to_standard_output(Settings settings) {
+  settings.emplace_back("--out=-");
+  return settings;
+}
+
 MeshFile converted(const std::filesystem::path& model, const std::filesystem::path& out,
                    const Settings& settings) {
   constexpr std::size_t digits = 8;
-  std::istringstream in(said_of_model("--convert", model, settings));
+  std::istringstream in(said_of_model("--convert", model, to_standard_output(settings)));
   MeshFile file{{}, "", read_msh(in, model.string()), true};
   file.mesh.name = model_name(model);
   check_name(file.mesh, model);
@@ -169,7 +174,11 @@ std::vector<MeshFile> read_meshes(const RunSettings& run, const std::filesystem:
 }
 
 std::string curves_of_model(const std::filesystem::path& model, const Settings& settings) {
-  return said_of_model("--show", model, settings);
+  return said_of_model("--show", model, to_standard_output(settings));
+}
+
+std::string scene_of_deck(const std::filesystem::path& deck) {
+  return said_of_model("--scene", deck, {});
 }
 
 bool is_of_catalogue(const std::filesystem::path& file) {

@@ -73,8 +73,12 @@ SceneFile checked_scene(const Json& json, const std::string& place) {
 
 }  // namespace
 
+SceneFile scene_file_of(const std::string& text, const std::string& place) {
+  return checked_scene(json_of_file(place, text), place);
+}
+
 Scene scene_of(const std::string& text, const std::string& place) {
-  return checked_scene(json_of_file(place, text), place).scene;
+  return scene_file_of(text, place).scene;
 }
 
 SceneFile read_scene_file(const std::filesystem::path& file) {

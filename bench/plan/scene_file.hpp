@@ -22,6 +22,8 @@ SceneFile read_scene_file(const std::filesystem::path& file);
 Scene read_scene(const std::filesystem::path& file);
 // Outside the catalogue of meshes, a wall on the edges replaces the default crown.
 SceneFile on_other_bodies(SceneFile file);
-Scene scene_of(const std::string& text, const std::string& place);  // place: for messages
+// place: for messages
+SceneFile scene_file_of(const std::string& text, const std::string& place);
+Scene scene_of(const std::string& text, const std::string& place);
 
 }  // namespace airybench

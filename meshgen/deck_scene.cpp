@@ -1,0 +1,364 @@
+#include "meshgen/deck_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "meshgen/deck_properties.hpp"
+#include "meshgen/deck_steps.hpp"
+#include "support/errors.hpp"
+#include "support/lists.hpp"
+
+namespace airybench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// On an edge of the boundary, per step.
+struct EdgeState {
+  Held held;
+  std::optional<double> pressure_MPa;
+  std::optional<Eigen::Vector2d> traction_MPa;
+};
+
+class SceneReader {
+ public:
+  explicit SceneReader(const Deck& deck)
+      : deck_(deck), properties_(read_properties(deck)), states_(read_steps(deck)) {
+    for (const auto& [edge, element] : deck.boundary)
+      for (const long node : nodes_of(edge)) edges_of_[node].push_back(edge);
+  }
+
+  DeckScene read() {
+    check_supports();
+    for (std::size_t step = 0; step < states_.size(); ++step) take_forces(step);
+    DeckScene scene;
+    label_edges();
+    scene.curve = curves();
+    scene.json = json(scene.curve).dump(2) + "\n";
+    scene.notes = std::move(properties_.notes);
+    return scene;
+  }
+
+ private:
+  // Corners, and the node between them if there is one.
+  std::vector<long> nodes_of(const DeckEdge& edge) const {
+    std::vector<long> nodes = {edge[0], edge[1]};
+    const DeckElement& element = deck_.elements.at(deck_.boundary.at(edge));
+    const std::size_t n = element.corner_count;
+    for (std::size_t k = 0; k < n && element.nodes.size() == 2 * n; ++k)
+      if (deck_edge(element.nodes[k], element.nodes[(k + 1) % n]) == edge)
+        nodes.push_back(element.nodes[n + k]);
+    return nodes;
+  }
+  Eigen::Vector2d place(long node) const { return deck_.place(node); }
+  double length(const DeckEdge& edge) const { return (place(edge[1]) - place(edge[0])).norm(); }
+  Held held_on(const StepState& state, const DeckEdge& edge) const {
+    Held held;
+    const auto a = state.held.find(edge[0]), b = state.held.find(edge[1]);
+    if (a == state.held.end() || b == state.held.end()) return held;
+    for (std::size_t k = 0; k < 2; ++k)
+      if (a->second[k] && b->second[k]) {
+        if (*a->second[k] != *b->second[k])
+          throw InputError(fmt::format("*BOUNDARY: {} and {} are moved differently (allowed: "
+                                       "sides that keep their shape)",
+                                       deck_.shown(edge[0]), deck_.shown(edge[1])));
+        held[k] = a->second[k];
+      }
+    return held;
+  }
+
+  // The same nodes in every step, each of a side that is held so.
+  void check_supports() const {
+    for (const StepState& state : states_) {
+      if (!std::ranges::equal(state.held, states_.front().held, [](const auto& a, const auto& b) {
+            return a.first == b.first && a.second[0].has_value() == b.second[0].has_value() &&
+                   a.second[1].has_value() == b.second[1].has_value();
+          }))
+        throw InputError("*BOUNDARY: supports differ between steps (allowed: values only)");
+      for (const auto& [node, held] : state.held) {
+        const auto edges = edges_of_.find(node);
+        for (std::size_t k = 0; k < 2; ++k) {
+          if (!held[k]) continue;
+          const bool is_on_side =
+              edges != edges_of_.end() && std::ranges::any_of(edges->second, [&](const auto& edge) {
+                return held_on(state, edge)[k].has_value();
+              });
+          if (!is_on_side)
+            throw InputError(fmt::format(
+                "*BOUNDARY: {}: {} is held in this node alone, where stress is infinite (allowed: "
+                "sides of the boundary, all of whose nodes are held)",
+                deck_.shown(node), k == 0 ? "x" : "y"));
+        }
+      }
+    }
+  }
+
+  // Nodal forces as even tractions with the same resultant on connected sides.
+  void take_forces(std::size_t step) {
+    std::map<long, Eigen::Vector2d> forces = states_[step].force_N;
+    std::erase_if(forces, [](const auto& force) { return force.second.isZero(0); });
+    const auto is_loaded = [&](const DeckEdge& edge) {
+      return std::ranges::all_of(nodes_of(edge), [&](long n) { return forces.contains(n); });
+    };
+    std::set<long> left;
+    for (const auto& [node, force] : forces) left.insert(node);
+    while (!left.empty()) {
+      std::vector<long> chain = {*left.begin()};
+      std::set<DeckEdge> edges;
+      left.erase(left.begin());
+      for (std::size_t k = 0; k < chain.size(); ++k)
+        if (const auto found = edges_of_.find(chain[k]); found != edges_of_.end())
+          for (const DeckEdge& edge : found->second)
+            if (is_loaded(edge) && edges.insert(edge).second)
+              for (const long node : nodes_of(edge))
+                if (left.erase(node) > 0) chain.push_back(node);
+      if (edges.empty())
+        throw InputError(fmt::format(
+            "*CLOAD: {}: a force in this node alone, where stress is infinite (allowed: on all "
+            "nodes of sides of the boundary, or *DLOAD, *DSLOAD)",
+            deck_.shown(chain.front())));
+      Eigen::Vector2d total = Eigen::Vector2d::Zero(), centre = total;
+      double whole = 0;
+      for (const DeckEdge& edge : edges) {
+        whole += length(edge);
+        centre += length(edge) * (place(edge[0]) + place(edge[1])) / 2;
+      }
+      centre /= whole;
+      double moment = 0, size = 0;
+      for (const long node : chain) {
+        const Eigen::Vector2d &force = forces.at(node), arm = place(node) - centre;
+        total += force;
+        moment += arm.x() * force.y() - arm.y() * force.x();
+        size += force.norm();
+      }
+      constexpr double uneven = 0.02;
+      if (std::abs(moment) > uneven * size * whole)
+        throw InputError(
+            fmt::format("*CLOAD: forces from {} on are not even along their sides (allowed: even "
+                        "ones, as *DLOAD or *DSLOAD gives them)",
+                        deck_.shown(chain.front())));
+      for (const DeckEdge& edge : edges)
+        traction_[step][edge] = total / (whole * properties_.thickness_mm);
+      if (step == 0)
+        properties_.notes.push_back(
+            fmt::format("*CLOAD on {} nodes from {} on: as an even traction with the same resultant",
+                        chain.size(), deck_.shown(chain.front())));
+    }
+  }
+
+  EdgeState state_on(std::size_t step, const DeckEdge& edge) const {
+    EdgeState state{held_on(states_[step], edge), {}, {}};
+    for (const auto& [id, pressure] : states_[step].pressures)
+      if (std::ranges::find(pressure.edges, edge) != pressure.edges.end())
+        state.pressure_MPa = state.pressure_MPa.value_or(0) + pressure.value_MPa;
+    if (const auto of_step = traction_.find(step); of_step != traction_.end())
+      if (const auto found = of_step->second.find(edge); found != of_step->second.end())
+        state.traction_MPa = found->second;
+    return state;
+  }
+
+  std::string face_of(const DeckEdge& edge) const {
+    const auto names = deck_.names.find(edge);
+    std::string face;
+    if (names == deck_.names.end()) return face;
+    for (const DeckPair& pair : properties_.pairs)
+      for (const std::string& name : pair.faces)
+        if (names->second.contains(name)) {
+          if (!face.empty())
+            throw InputError(fmt::format("surfaces {} and {} of contact pairs share the side at {}",
+                                         face, name, deck_.shown(edge[0])));
+          face = name;
+        }
+    return face;
+  }
+
+  std::string name_of_set(const DeckEdge& edge, const char* otherwise) const {
+    const auto names = deck_.names.find(edge);
+    return names == deck_.names.end() ? otherwise : *names->second.begin();
+  }
+
+  void label_edges() {
+    std::map<std::string, std::string> label_of;  // by what is prescribed in all steps
+    std::set<std::string> taken;
+    for (const auto& [edge, element] : deck_.boundary) {
+      const std::string face = face_of(edge);
+      std::string key;
+      const EdgeState first = state_on(0, edge);
+      bool is_loaded = false;
+      for (std::size_t step = 0; step < states_.size(); ++step) {
+        const EdgeState state = state_on(step, edge);
+        is_loaded |= state.pressure_MPa || state.traction_MPa;
+        if (state.pressure_MPa && state.traction_MPa)
+          throw InputError(fmt::format("a pressure and *CLOAD on the side at {} (allowed: one)",
+                                       deck_.shown(edge[0])));
+        for (const std::optional<double>& x :
+             {state.held[0], state.held[1], state.pressure_MPa,
+              state.traction_MPa ? std::optional(state.traction_MPa->x()) : std::nullopt,
+              state.traction_MPa ? std::optional(state.traction_MPa->y()) : std::nullopt})
+          key += x ? fmt::format("{} ", *x) : "- ";
+      }
+      const bool is_held = first.held[0] || first.held[1],
+                 is_full = first.held[0] && first.held[1];
+      const auto refuse = [&](const char* what) {
+        throw InputError(fmt::format("the side at {}: {}", deck_.shown(edge[0]), what));
+      };
+      if (!face.empty()) {
+        if (is_held || is_loaded) refuse("in a contact pair, and held or loaded (allowed: one)");
+        label_[edge] = "contact:" + face;
+        continue;
+      }
+      if (!is_held && !is_loaded) continue;
+      if (is_held && !is_full) {
+        if (is_loaded) refuse("held in one direction, and loaded (allowed: one)");
+        const Eigen::Vector2d along = (place(edge[1]) - place(edge[0])) / length(edge);
+        if (std::abs(along[first.held[0] ? 0 : 1]) > 1e-6)
+          refuse(first.held[0] ? "x alone is held (allowed: on sides along y, or x and y)"
+                               : "y alone is held (allowed: on sides along x, or x and y)");
+      }
+      std::string& label = label_of[key];
+      if (label.empty()) {
+        std::string name = name_of_set(edge, is_held ? "held" : "loaded");
+        for (const auto& [id, pressure] : states_.front().pressures)
+          if (!is_held && std::ranges::find(pressure.edges, edge) != pressure.edges.end())
+            name = pressure.name;
+        label = fmt::format("{}:{}", is_held ? "displacement" : "force", name);
+        for (int k = 2; !taken.insert(label).second; ++k)
+          label = fmt::format("{}:{}_{}", is_held ? "displacement" : "force", name, k);
+        example_[label] = edge;
+      }
+      label_[edge] = label;
+    }
+    for (const DeckPair& pair : properties_.pairs)
+      for (const std::string& name : pair.faces)
+        if (std::ranges::none_of(label_, [&](const auto& l) { return l.second == "contact:" + name; }))
+          throw InputError(fmt::format("surface {} has no edge of the boundary", name));
+  }
+
+  std::map<DeckEdge, int> curves() const {
+    std::map<std::string, int> numbers;
+    std::map<DeckEdge, int> curve;
+    const auto add = [&](const DeckEdge& edge) {
+      std::string key;
+      if (const auto names = deck_.names.find(edge); names != deck_.names.end())
+        key = joined(names->second, "\n");
+      if (const auto label = label_.find(edge); label != label_.end())
+        key += "\n\n" + label->second;
+      curve[edge] = numbers.emplace(key, static_cast<int>(numbers.size()) + 1).first->second;
+    };
+    for (const auto& [edge, names] : deck_.names) add(edge);
+    for (const auto& [edge, label] : label_) add(edge);
+    return curve;
+  }
+
+  // null: as before.
+  Json values(std::size_t step, const DeckEdge& edge) const {
+    const EdgeState state = state_on(step, edge);
+    Json values = Json::object();
+    if (state.held[0] || state.held[1]) {
+      values["displacement_mm"] = {state.held[0].value_or(0), state.held[1].value_or(0)};
+    } else if (state.traction_MPa) {
+      values["traction_MPa"] = {state.traction_MPa->x(), state.traction_MPa->y()};
+    } else {
+      values["pressure_MPa"] = state.pressure_MPa.value_or(0);
+    }
+    return values;
+  }
+
+  Json body_force(std::size_t step) const {
+    Eigen::Vector2d force = Eigen::Vector2d::Zero();
+    if (!states_[step].gravity.empty()) {
+      std::map<std::string, Eigen::Vector2d> of_body;
+      for (const auto& [set, acceleration] : states_[step].gravity) {
+        const auto members = deck_.element_sets.find(set);
+        if (members == deck_.element_sets.end())
+          throw InputError(fmt::format("GRAV: {}: no such set", set));
+        std::set<long> with(members->second.begin(), members->second.end());
+        for (const auto& [body, material] : properties_.materials) {
+          if (!std::ranges::all_of(deck_.element_sets.at(body),
+                                   [&](long e) { return with.contains(e); }))
+            continue;
+          if (!material.density)
+            throw InputError(fmt::format("GRAV: the material of {} has no *DENSITY", body));
+          of_body[body] = *material.density * acceleration;
+        }
+      }
+      force = of_body.empty() ? force : of_body.begin()->second;
+      for (const auto& [body, material] : properties_.materials)
+        if (!of_body.contains(body) || of_body.at(body) != force)
+          throw InputError("GRAV: bodies of different weight per volume (allowed: the same in all)");
+    }
+    return {force.x(), force.y()};
+  }
+
+  Json json(const std::map<DeckEdge, int>& curve) const {
+    Json scene = {{"plane", properties_.is_plane_stress ? "stress" : "strain"}};
+    Json roles = Json::object(), boundary = Json::object();
+    std::map<int, std::string> role;
+    for (const auto& [edge, number] : curve) {
+      const auto label = label_.find(edge);
+      if (label != label_.end())
+        role[number] = label->second;
+      else
+        role.emplace(number, "force");
+    }
+    for (const auto& [number, label] : role) roles[std::to_string(number)] = label;
+    roles["rest"] = "force";
+    scene["roles"] = roles;
+    for (const auto& [body, material] : properties_.materials)
+      scene["materials"][body] = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
+    scene["displacement_mm"] = {0, 0};
+    scene["body_force_N_per_mm3"] = body_force(0);
+    for (const auto& [label, edge] : example_) {
+      boundary[label] = values(0, edge);
+      const Held held = held_on(states_[0], edge);
+      if (held[0] || held[1]) boundary[label]["support"] = held[0] && held[1] ? "full" : "normal";
+    }
+    if (!boundary.empty()) scene["boundary"] = boundary;
+    for (const DeckPair& pair : properties_.pairs)
+      scene["contacts"].push_back(
+          {{"between", {"contact:" + pair.faces[0], "contact:" + pair.faces[1]}},
+           {"friction", pair.friction}});
+    for (std::size_t step = 1; step < states_.size(); ++step) {
+      Json change = Json::object();
+      for (const auto& [label, edge] : example_)
+        if (const Json now = values(step, edge); now != values(step - 1, edge))
+          change["boundary"][label] = now;
+      if (const Json now = body_force(step); now != body_force(step - 1))
+        change["body_force_N_per_mm3"] = now;
+      scene["load_steps"].push_back(change);
+    }
+    return scene;
+  }
+
+  const Deck& deck_;
+  DeckProperties properties_;
+  const std::vector<StepState> states_;
+  std::map<long, std::vector<DeckEdge>> edges_of_;  // of the boundary, by their nodes
+  std::map<std::size_t, std::map<DeckEdge, Eigen::Vector2d>> traction_;  // of *CLOAD, per step
+  std::map<DeckEdge, std::string> label_;
+  std::map<std::string, DeckEdge> example_;  // an edge of each label
+};
+
+}  // namespace
+
+std::optional<DeckScene> scene_of(const Deck& deck) {
+  if (!is_analysis(deck)) return {};
+  return SceneReader(deck).read();
+}
+
+std::map<DeckEdge, int> curves_of(const Deck& deck) {
+  try {
+    if (const std::optional<DeckScene> scene = scene_of(deck)) return scene->curve;
+  } catch (const InputError&) {  // its mesh can still be taken
+  }
+  return curves_by_names(deck);
+}
+
+}  // namespace airybench

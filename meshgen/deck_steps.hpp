@@ -1,0 +1,32 @@
+// The steps of an input deck: supports and loads at the end of each.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshgen/deck.hpp"
+
+namespace airybench {
+
+using Held = std::array<std::optional<double>, 2>;  // displacements x and y, where they are given
+
+struct StepState {
+  std::map<long, Held> held;                // of nodes
+  std::map<long, Eigen::Vector2d> force_N;  // of nodes
+  struct Pressure {
+    std::string name;
+    std::vector<DeckEdge> edges;
+    double value_MPa = 0;
+  };
+  std::map<std::string, Pressure> pressures;
+  std::map<std::string, Eigen::Vector2d> gravity;  // mm/s² per element set
+};
+
+// One at least. Loads grow evenly in each step. Throws InputError: line, what is wrong.
+std::vector<StepState> read_steps(const Deck& deck);
+
+}  // namespace airybench
