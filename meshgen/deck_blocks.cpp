@@ -61,8 +61,7 @@ class BlockReader {
       const std::size_t equals = std::min(field->find('='), field->size());
       const std::string name = in_capitals(trimmed(field->substr(0, equals)));
       if (!name.empty())
-        block.parameters[name] =
-            trimmed(field->substr(std::min(equals + 1, field->size())));
+        block.parameters[name] = trimmed(field->substr(std::min(equals + 1, field->size())));
     }
   }
 

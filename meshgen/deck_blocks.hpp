@@ -22,7 +22,7 @@ struct DeckLine {
 };
 
 struct DeckBlock {
-  std::string keyword;  // without its star, in capitals
+  std::string keyword;                            // without its star, in capitals
   std::map<std::string, std::string> parameters;  // names in capitals
   DeckLine line;
   std::vector<DeckLine> data;

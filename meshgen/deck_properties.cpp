@@ -133,9 +133,8 @@ class PropertyReader {
         unused.emplace(block.keyword, block.line.place);
         continue;
       }
-      const auto known = std::ranges::find(refused, block.keyword, [](const auto& r) {
-        return r.first;
-      });
+      const auto known =
+          std::ranges::find(refused, block.keyword, [](const auto& r) { return r.first; });
       block.line.fail(fmt::format(
           "*{}{} (allowed in a deck without --scene: linear elasticity, supports, loads, contact "
           "pairs with friction, static steps; with one its mesh alone is read)",
@@ -227,9 +226,11 @@ class PropertyReader {
         const std::string law = in_capitals(block.value("PRESSURE-OVERCLOSURE"));
         if (law == "TIED" || law == "TABULAR")
           block.line.fail(fmt::format(
-              "PRESSURE-OVERCLOSURE={} (allowed: HARD; LINEAR, EXPONENTIAL are taken as HARD)", law));
+              "PRESSURE-OVERCLOSURE={} (allowed: HARD; LINEAR, EXPONENTIAL are taken as HARD)",
+              law));
         if (law == "LINEAR" || law == "EXPONENTIAL")
-          properties_.notes.push_back(fmt::format("{}: contact is hard here, not {}", block.line.place, law));
+          properties_.notes.push_back(
+              fmt::format("{}: contact is hard here, not {}", block.line.place, law));
       }
     }
     std::map<std::string, std::string, WithoutCase> place_of;  // faces' pairs
@@ -240,9 +241,8 @@ class PropertyReader {
         block.line.fail(fmt::format("INTERACTION={}: no such *SURFACE INTERACTION",
                                     block.value("INTERACTION")));
       if (block.has("ADJUST"))
-        properties_.notes.push_back(
-            fmt::format("{}: ADJUST is not used: the gap is that of the coordinates",
-                        block.line.place));
+        properties_.notes.push_back(fmt::format(
+            "{}: ADJUST is not used: the gap is that of the coordinates", block.line.place));
       for (const DeckLine& line : block.data) {
         const std::vector<std::string> names = line.fields();
         if (names.size() < 2 || names[1].empty() || in_capitals(names[0]) == in_capitals(names[1]))

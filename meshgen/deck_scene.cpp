@@ -66,9 +66,10 @@ class SceneReader {
     for (std::size_t k = 0; k < 2; ++k)
       if (a->second[k] && b->second[k]) {
         if (*a->second[k] != *b->second[k])
-          throw InputError(fmt::format("*BOUNDARY: {} and {} are moved differently (allowed: "
-                                       "sides that keep their shape)",
-                                       deck_.shown(edge[0]), deck_.shown(edge[1])));
+          throw InputError(
+              fmt::format("*BOUNDARY: {} and {} are moved differently (allowed: "
+                          "sides that keep their shape)",
+                          deck_.shown(edge[0]), deck_.shown(edge[1])));
         held[k] = a->second[k];
       }
     return held;
@@ -147,9 +148,9 @@ class SceneReader {
       for (const DeckEdge& edge : edges)
         traction_[step][edge] = total / (whole * properties_.thickness_mm);
       if (step == 0)
-        properties_.notes.push_back(
-            fmt::format("*CLOAD on {} nodes from {} on: as an even traction with the same resultant",
-                        chain.size(), deck_.shown(chain.front())));
+        properties_.notes.push_back(fmt::format(
+            "*CLOAD on {} nodes from {} on: as an even traction with the same resultant",
+            chain.size(), deck_.shown(chain.front())));
     }
   }
 
@@ -204,8 +205,7 @@ class SceneReader {
               state.traction_MPa ? std::optional(state.traction_MPa->y()) : std::nullopt})
           key += x ? fmt::format("{} ", *x) : "- ";
       }
-      const bool is_held = first.held[0] || first.held[1],
-                 is_full = first.held[0] && first.held[1];
+      const bool is_held = first.held[0] || first.held[1], is_full = first.held[0] && first.held[1];
       const auto refuse = [&](const char* what) {
         throw InputError(fmt::format("the side at {}: {}", deck_.shown(edge[0]), what));
       };
@@ -237,7 +237,8 @@ class SceneReader {
     }
     for (const DeckPair& pair : properties_.pairs)
       for (const std::string& name : pair.faces)
-        if (std::ranges::none_of(label_, [&](const auto& l) { return l.second == "contact:" + name; }))
+        if (std::ranges::none_of(label_,
+                                 [&](const auto& l) { return l.second == "contact:" + name; }))
           throw InputError(fmt::format("surface {} has no edge of the boundary", name));
   }
 
@@ -292,7 +293,8 @@ class SceneReader {
       force = of_body.empty() ? force : of_body.begin()->second;
       for (const auto& [body, material] : properties_.materials)
         if (!of_body.contains(body) || of_body.at(body) != force)
-          throw InputError("GRAV: bodies of different weight per volume (allowed: the same in all)");
+          throw InputError(
+              "GRAV: bodies of different weight per volume (allowed: the same in all)");
     }
     return {force.x(), force.y()};
   }

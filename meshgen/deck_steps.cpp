@@ -49,8 +49,7 @@ double factor_of(const DeckBlock& block, const Amplitudes& amplitudes, double du
   }
   constexpr double rounding = 1e-6;
   for (const auto& [time, factor] : points)
-    if (time < duration &&
-        std::abs(factor - value * time / duration) > rounding * std::abs(value))
+    if (time < duration && std::abs(factor - value * time / duration) > rounding * std::abs(value))
       block.line.fail(fmt::format("AMPLITUDE={} is no ramp (allowed: from 0 evenly up)",
                                   block.value("AMPLITUDE")));
   return value;
@@ -160,7 +159,8 @@ class StepReader {
 
   void press(const DeckBlock& block, const DeckLine& line, double factor) {
     const std::vector<std::string> fields = line.fields();
-    if (fields.size() < 3) line.fail(fmt::format("*{}: a set, P or GRAV, and a value", block.keyword));
+    if (fields.size() < 3)
+      line.fail(fmt::format("*{}: a set, P or GRAV, and a value", block.keyword));
     const std::string kind = in_capitals(fields[1]), id = in_capitals(fields[0]) + " " + kind;
     const double value = factor * line.number(fields[2]);
     if (kind == "GRAV" && block.keyword == "DLOAD") {

@@ -184,20 +184,20 @@ void check_scale(const Scene& scene, Problem& problem) {
   }
 }
 
-std::vector<Eigen::Matrix3d> compliances(const Scene& scene, const Mesh& mesh) {
+// Per body.
+std::vector<Material> materials(const Scene& scene, const Mesh& mesh) {
   for (const auto& [body, material] : scene.materials)
     if (std::ranges::count(mesh.body_names, body) == 0)
       fail(
           scene, "materials", body,
           "is no body of the mesh " + mesh.name + " (its bodies: " + joined(mesh.body_names) + ")");
-  std::vector<Eigen::Matrix3d> result;
+  std::vector<Material> result;
   for (std::size_t k = 0; k < mesh.body_names.size(); ++k) {
     const auto own = scene.materials.find(mesh.body_names[k]);
     const auto& layers = scene.layer_materials;
-    result.push_back(compliance(own != scene.materials.end() ? own->second
-                                : layers.empty()             ? scene.material
-                                                             : layers[k % layers.size()],
-                                scene.plane));
+    result.push_back(own != scene.materials.end() ? own->second
+                     : layers.empty()             ? scene.material
+                                                  : layers[k % layers.size()]);
   }
   return result;
 }
@@ -316,13 +316,19 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   check_pieces(scene, contact);
 
   std::vector<Loads> steps = loads_of_steps(scene, contact);
-  std::vector<Eigen::Matrix3d> by_body = compliances(scene, mesh);
+  std::vector<Eigen::Matrix3d> by_body;
+  std::vector<double> poisson_zz;
+  for (const Material& material : materials(scene, mesh)) {
+    by_body.push_back(compliance(material, scene.plane));
+    poisson_zz.push_back(scene.plane == Plane::strain ? material.poisson : 0);
+  }
   const std::vector<double> friction = contact_friction(contact, scene);
   std::vector<ContactNormals> normals = contact_normals(contact, scene),
                               on_curves = curve_normals(contact, scene);
   std::vector<int> opposite = opposite_edges(contact);
   Problem problem =
       make_problem(std::move(mesh), std::move(by_body), std::move(steps.front()), friction);
+  problem.poisson_zz = std::move(poisson_zz);
   problem.contact_normals = std::move(normals);
   problem.curve_normals = std::move(on_curves);
   problem.opposite = std::move(opposite);

@@ -226,6 +226,7 @@ Problem with_loads(const Problem& problem, Loads loads) {
   Problem result{.mesh = problem.mesh,
                  .edges = problem.edges,
                  .compliance = problem.compliance,
+                 .poisson_zz = problem.poisson_zz,
                  .loads = std::move(loads),
                  .free = problem.free,
                  .friction = problem.friction,

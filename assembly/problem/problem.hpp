@@ -120,8 +120,10 @@ struct Problem {
   Mesh mesh;
   MeshEdges edges = {};
   std::vector<Eigen::Matrix3d> compliance;  // per row of mesh.body_names, 1/MPa
-  Loads loads;                              // without the rigid motion
-  RigidMotion motion = {};                  // ρ
+  // The same: ν of σ_zz = ν (σ_xx + σ_yy), 0 in plane stress; empty: not known.
+  std::vector<double> poisson_zz = {};
+  Loads loads;              // without the rigid motion
+  RigidMotion motion = {};  // ρ
   FreeMotions free = {};
   std::vector<double> friction = {};  // μ ≥ 0 per row of Mesh::boundary, 0 off Γ_C; empty: none
   std::vector<ContactNormals> contact_normals = {};  // per row; empty: the edges' own

@@ -145,7 +145,7 @@ TEST_F(Decks, PrescribePairsFrictionAndSteps) {
             R"({"displacement_mm":[0.0,-0.002],"support":"full"})");
   EXPECT_EQ(json["load_steps"].dump(),
             R"([{"boundary":{"displacement:Ntop":{"displacement_mm":[0.0004,-0.002]}}}])");
-  EXPECT_EQ(prescribed.notes.front().substr(0, 8), "line 103");
+  EXPECT_EQ(prescribed.notes.front().substr(0, 8), "line 77:");
   EXPECT_NE(prescribed.notes.front().find("contact is hard here, not LINEAR"), std::string::npos);
 }
 
