@@ -31,6 +31,7 @@ const std::map<std::string_view, Command> commands = {
     {"export-problem", airybench::export_problem_command},
     {"merge", airybench::merge_command},
     {"replay", airybench::replay_command},
+    {"solve", airybench::solve_command},
     {"track", airybench::track_command},
 };
 

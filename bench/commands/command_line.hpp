@@ -66,6 +66,10 @@ void add_model_settings(CLI::App& app, std::vector<std::string>& settings);
 // --mesh with model settings, and --scene: one of each.
 void add_one_body(CLI::App& app, RunSettings& run);
 
+// --degree: of HYBRID, for the levels and, unless methods were given, for the cases. After the
+// goals of --adapt, which `auto` goes by. Throws UsageError.
+void read_degree(const std::string& text, bool keeps_methods, RunSettings& run);
+
 // Stores an argument of Google Benchmark's as options, because plan and records depend on them.
 // Throws UsageError.
 void take_benchmark_argument(const std::string& argument, Options& options);

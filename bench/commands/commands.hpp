@@ -14,6 +14,7 @@ int export_command(int argc, const char* const* argv);
 int export_problem_command(int argc, const char* const* argv);
 int merge_command(int argc, const char* const* argv);
 int replay_command(int argc, const char* const* argv);
+int solve_command(int argc, const char* const* argv);
 int run_command(int argc, const char* const* argv);  // `bench` without a command
 int track_command(int argc, const char* const* argv);
 

@@ -255,7 +255,9 @@ void read_adapt(const std::string& text, Adaptation& adapt) {
   adapt.goals_only = levels == "last";
 }
 
-void read_degree(const std::string& text, bool is_given, RunSettings& run) {
+}  // namespace
+
+void read_degree(const std::string& text, bool keeps_methods, RunSettings& run) {
   // On the default tooth degree 3 takes 1.5 of degree 2's time for 0.1 %, 0.75 of it for 0.03 %.
   constexpr double low_error = 0.001;
   int degree = 2;
@@ -273,8 +275,10 @@ void read_degree(const std::string& text, bool is_given, RunSettings& run) {
            "one of both, or by=" + hybrid);
   run.degree = degree;
   run.adapt.by = hybrid;
-  if (!is_given) run.methods = hybrid;
+  if (!keeps_methods) run.methods = hybrid;
 }
+
+namespace {
 
 void read_fields(const std::string& text, CaseSettings& asked) {
   asked.fields = true;

@@ -198,7 +198,9 @@ std::string picture_line(const RunResult& result, const fs::path& out, bool has_
 
 std::vector<PosedScene> posed_scenes(const Options& options) {
   if (!options.run.problems.empty()) return posed_problems(options);
-  const std::vector<SceneFile> scenes = read_scenes(options.run);
+  std::vector<SceneFile> scenes = read_scenes(options.run);
+  if (options.run.equal_steps)
+    for (SceneFile& file : scenes) file = in_equal_steps(std::move(file), *options.run.equal_steps);
   const SignsOfLife signs("reading " + shortened(options.run.meshes));
   std::vector<PosedScene> posed;
   std::map<std::vector<std::string>, std::vector<MeshFile>> meshes;  // by the scenes' settings

@@ -7,6 +7,7 @@
 
 #include "assembly/control_points.hpp"
 #include "assembly/elements/edge_forces.hpp"
+#include "bench/measure/part_answer.hpp"
 #include "bench/measure/vtu.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/contact/coulomb_law.hpp"
@@ -325,6 +326,9 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
   if (fields.w) u = with_rigid_motion(problem, *fields.w);
   write(".stress.csv", stress_csv(problem, stress));
   write(".boundary.csv", boundary_csv(problem));
+  const bool is_part = fields.solution.displacement.cols() == 0;  // else F_C has other points
+  write_if(is_part, ".answer.json", [&] { return json_text(to_json(part_answer(fields))); });
+  write_if(is_part, ".faces.csv", [&] { return faces_csv(fields, contact); });
   write_if(u.has_value(), ".displacement.csv", [&] { return displacement_csv(problem, *u); });
   write_if(fields.error != nullptr, ".error.csv", [&] { return error_csv(*fields.error); });
   write_if(fields.mean.has_value(), ".mean.csv", [&] { return stress_csv(problem, *fields.mean); });

@@ -10,6 +10,9 @@
 //                     (ContactPicture)
 //   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, rolls (0 or 1), the tractions given on Γ_F at
 //                     both ends t0_x_MPa, t0_y_MPa, t1_x_MPa, t1_y_MPa, and role
+//   NAME.faces.csv    face, along_mm, x_mm, y_mm, pressure_MPa, shear_MPa, gap_mm, slip_mm, state;
+//                     contact faces as the body is walked; five rows per edge
+//   NAME.answer.json  see part_answer.hpp. Of displacement methods neither is there
 //   NAME.error.csv    triangle, error_share: 0 to 1, of the squared constitutive relation error,
 //                     contact terms included; triangles in the order of NAME.stress.csv
 //   NAME.mean.csv     as NAME.stress.csv: mean of the stresses and those of the displacements

@@ -48,6 +48,7 @@ struct RunSettings {
   std::vector<std::filesystem::path> problems;   // FCLIB files instead of meshes and scenes
   std::vector<std::filesystem::path> externals;  // declarations of other programs
   std::vector<std::filesystem::path> scenes;     // empty: the default scene
+  std::optional<int> equal_steps;                // of a scene without load steps
   std::optional<int> figure;  // 3, 4 or 5: meshes and methods of the paper's figure
   Study study;
   CaseSettings cases;                    // what its cases are asked, but for a study's points

@@ -96,6 +96,17 @@ SceneFile read_scene_file(const std::filesystem::path& file) {
 
 Scene read_scene(const std::filesystem::path& file) { return read_scene_file(file).scene; }
 
+SceneFile in_equal_steps(SceneFile file, int steps) {
+  if (file.scene.equal_steps != 1 || !file.scene.later_steps.empty())
+    throw FileError(
+        fmt::format("{}: load_steps and --steps (allowed: one of them)", file.scene.source));
+  Json json = parse_json(file.definition);
+  json["load_steps"] = steps;
+  file.scene.equal_steps = steps;
+  file.definition = json_text(json);
+  return file;
+}
+
 SceneFile on_other_bodies(SceneFile file) {
   Json json = parse_json(file.definition);
   if (json.contains("crown_radius_mm") || json.contains("wall")) return file;

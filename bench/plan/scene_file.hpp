@@ -24,6 +24,8 @@ Scene read_scene(const std::filesystem::path& file);
 SceneFile on_other_bodies(SceneFile file);
 // place: for messages
 SceneFile scene_file_of(const std::string& text, const std::string& place);
+// Throws FileError if it has load steps.
+SceneFile in_equal_steps(SceneFile file, int steps);
 Scene scene_of(const std::string& text, const std::string& place);
 
 }  // namespace airybench

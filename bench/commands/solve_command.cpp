@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "assembly/problem/scene.hpp"
+#include "bench/commands/command_line.hpp"
+#include "bench/commands/commands.hpp"
+#include "bench/commands/run_parts.hpp"
+#include "bench/measure/environment.hpp"
+#include "bench/records/case_name.hpp"
+#include "bench/records/json_value.hpp"
+#include "bench/records/summary.hpp"
+#include "bench/report/part_table.hpp"
+#include "bench/run/adapted_scenes.hpp"
+#include "bench/run/runner.hpp"
+#include "bench/run/threads_at_hand.hpp"
+#include "mesh/model_format.hpp"
+#include "solvers/methods.hpp"
+#include "support/atomic_file.hpp"
+#include "support/file_text.hpp"
+#include "support/shortened.hpp"
+#include "support/this_process.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr const char* solve_footer = R"(
+MODEL is a mesh or a Gmsh model; an input deck (.inp) brings its own scene. The mesh is adapted until the total error, relative in
+energy, is met; with :force or :pressure until the interval of Σ F_n or of the largest pressure is as narrow, ± relative.
+In OUT: records, meshes, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), figures.
+
+Exit status  0  the error is met
+             1  it is not, or the case is not ok
+             2  wrong usage, or a file that cannot be used: one line on standard error
+
+Examples
+  {bench} solve part.inp
+  {bench} solve part.geo load.json --error=0.5%
+  {bench} solve part.geo load.json --error=1%:pressure --steps=10
+)";
+
+enum class Quantity { energy, force, pressure };
+struct Goal {
+  double error;
+  Quantity of = Quantity::energy;
+};
+
+Goal goal_of(const std::string& text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string word = colon == text.size() ? "energy" : text.substr(colon + 1);
+  const std::optional<AdaptGoal> goal = adapt_goal_of(text.substr(0, colon));
+  if (goal && goal->error)
+    for (const auto& [name, quantity] : {std::pair("energy", Quantity::energy),
+                                         {"force", Quantity::force},
+                                         {"pressure", Quantity::pressure}})
+      if (word == name) return {*goal->error, quantity};
+  throw UsageError(fmt::format(
+      "--error: {} (allowed: above 0% and below 100%, as 1%, 1%:force, 1%:pressure)",
+      shortened(text)));
+}
+
+Options parse_solve(int argc, const char* const* argv, std::optional<Goal>& goal) {
+  Options options;
+  options.output.folder = "results/solve";
+  options.limits.repetitions = 1;
+  options.run.cases.fields = options.run.cases.timed_once = options.run.cases.intervals = true;
+  options.run.adapt.goals_only = true;
+  std::string error = "1%", degree = "auto", scene;
+  CLI::App app("A part's forces, pressure, stress and displacement, and how far they may be off.",
+               "{bench} solve");
+  app.footer(solve_footer);
+  app.add_option("MODEL", options.run.meshes, "a mesh, a model or an input deck")->required();
+  app.add_option("SCENE", scene, "its materials, supports, loads and contact");
+  app.add_option("--error", error, "total error, relative: 1%, 1%:force, 1%:pressure")
+      ->capture_default_str();
+  add_whole(app, "--steps", 1, most_load_steps, options.run.equal_steps,
+            "load in so many equal steps");
+  app.add_option("--degree", degree, "of the stresses: 2 to 4, auto")->capture_default_str();
+  add_model_settings(app, options.run.model_settings);
+  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.limits.timeout_s,
+             "seconds that one solve may take");
+  add_memory_limit(app, options.limits);
+  app.add_option("--out", options.output.folder, "folder of the output files")
+      ->capture_default_str();
+  parse_command_line(app, argc, argv);
+  if (!scene.empty()) options.run.scenes = {scene};
+  goal = goal_of(error);
+  options.run.adapt.goals = {{.error = goal->error, .unknowns = {}}};
+  read_degree(degree, false, options.run);
+  return options;
+}
+
+// "plane stress; Eall: E 70000 MPa, ν 0.33".
+std::string assumptions_of(const Problem& problem) {
+  std::string bodies;
+  bool is_strain = false;
+  for (std::size_t k = 0; k < problem.compliance.size(); ++k) {
+    const Eigen::Matrix3d& C = problem.compliance[k];
+    const double across = problem.poisson_zz[k], poisson = across > 0 ? across : -C(0, 1) / C(0, 0);
+    is_strain |= across > 0;
+    bodies += fmt::format("; {}: E {:.6g} MPa, ν {:.4g}", problem.mesh.body_names[k],
+                          (1 - across * across) / C(0, 0), poisson);
+  }
+  return fmt::format("{}: plane {}, forces for a thickness of 1 mm{}\n", problem.mesh.name,
+                     is_strain ? "strain" : "stress", bodies);
+}
+
+// Half the interval's width over its value; none: it is not known.
+std::optional<double> reached(const Record& record, Quantity of) {
+  const auto half_width = [](const auto& low, const auto& high, const auto& value) {
+    return low && high && value && *value != 0
+               ? std::optional((*high - *low) / 2 / std::abs(*value))
+               : std::nullopt;
+  };
+  switch (of) {
+    case Quantity::energy:
+      return record.error_total;
+    case Quantity::force:
+      return half_width(record.normal_resultant_low_N, record.normal_resultant_high_N,
+                        record.normal_resultant_N);
+    case Quantity::pressure:
+      return half_width(record.largest_pressure_low_MPa, record.largest_pressure_high_MPa,
+                        record.largest_pressure_MPa);
+  }
+  return {};
+}
+
+struct Solved {
+  Record record;
+  RunResult result;
+  std::string short_of;
+};
+
+std::optional<Solved> solved_to(const PosedScene& start, const Options& options) {
+  const AdaptedScenes adapted = adapted_scenes(start, options);
+  if (!adapted.why_not_reached.empty()) std::cerr << "note: " << adapted.why_not_reached << "\n";
+  if (adapted.levels.empty()) return {};
+  const std::vector<Case> plan =
+      plan_cases({adapted.levels.back()}, select_methods(options.run.methods), options.run);
+  RunResult result = run_cases(plan, options.limits, options.output, context_of_run(options));
+  if (result.names.empty()) return {};
+  Record record = result.record(0);
+  return Solved{std::move(record), std::move(result), adapted.why_not_reached};
+}
+
+// The energy's error that the quantity's needs is found as the loop goes.
+std::optional<Solved> solved(const PosedScene& start, Options options, const Goal& goal) {
+  constexpr int most_rounds = 5;
+  constexpr double margin = 0.8, smallest_step = 0.1;
+  std::optional<Solved> answer;
+  for (int round = 0; round < most_rounds; ++round) {
+    answer = solved_to(start, options);
+    if (!answer || !answer->short_of.empty()) return answer;
+    const std::optional<double> width = reached(answer->record, goal.of);
+    if (!width || *width <= goal.error) return answer;
+    double& error = *options.run.adapt.goals.front().error;
+    error *= std::max(smallest_step, margin * std::min(goal.error / *width, 1.));
+  }
+  return answer;
+}
+
+}  // namespace
+
+int solve_command(int argc, const char* const* argv) {
+  std::optional<Goal> goal;
+  const Options options = parse_solve(argc, argv, goal);
+  check_takes_records(options.output.folder);
+  catch_interrupts();
+  const PosedScene start = one_posed_scene(options);
+  make_folder(options.output.folder);
+  set_threads(options.run.cases.threads);
+  const std::optional<Solved> answer = solved(start, options, *goal);
+  if (!answer) return some_case_failed;
+  const Record& record = answer->record;
+  const std::filesystem::path fields =
+      options.output.folder / "fields" / name_of(record).file();
+  std::error_code error;
+  const std::filesystem::path of_part = fields.string() + ".answer.json";
+  const Json part = std::filesystem::exists(of_part, error)
+                        ? json_of_file(of_part.string(), file_text(of_part))
+                        : Json();
+  fmt::print("\n{}\n{}", assumptions_of(*start.body()), part_table(record, part));
+  const std::optional<double> width = reached(record, goal->of);
+  const bool is_met = width && *width <= goal->error && record.status == Status::ok;
+  if (!is_met && record.status == Status::ok)
+    fmt::print("note: the error asked for, {:g} %, is not met: {}\n", 100 * goal->error,
+               width ? fmt::format("{:.3g} %", 100 * *width) : "this quantity has no interval");
+  if (!part.is_null()) fmt::print("faces: {}.faces.csv\n", fields.string());
+  end_run(answer->result, options.output.folder, true);
+  return is_met ? all_ok : some_case_failed;
+}
+
+}  // namespace airybench

@@ -1,0 +1,380 @@
+#include "bench/measure/part_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "assembly/elements/edge_forces.hpp"
+#include "bench/records/csv.hpp"
+#include "bench/verify/along_contact.hpp"
+#include "mesh/mesh.hpp"
+
+namespace airybench {
+namespace {
+
+// Largest values over the body, and where singular places are.
+class PartReader {
+ public:
+  explicit PartReader(const SolvedFields& fields)
+      : system_(fields.system),
+        problem_(*fields.system.problem),
+        mesh_(problem_.mesh),
+        stress_(fields.solution.stress),
+        degree_(stress_.degree()),
+        F_C_(fields.solution.F_C),
+        states_(contact_states(system_.contact, F_C_)),
+        side_(mesh_.boundary.size()) {
+    std::map<int, int> row_of_edge;
+    for (int row = 0; row < rows(); ++row) row_of_edge[problem_.edges.of_boundary[row]] = row;
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (const auto row = row_of_edge.find(problem_.edges.of_triangle[t][k]);
+            row != row_of_edge.end())
+          side_[static_cast<std::size_t>(row->second)] = {t, k};
+    point_of_row_.assign(mesh_.boundary.size(), 0);
+    for (int p = 0; p < system_.contact.count; p += system_.contact.per_edge)
+      point_of_row_[static_cast<std::size_t>(system_.contact.boundary[p])] = p;
+  }
+
+  PartAnswer answer(const std::optional<DisplacementField>& w) const {
+    PartAnswer answer;
+    answer.faces = faces();
+    answer.supports = supports();
+    if (w) answer.displacement_mm = largest_displacement(with_rigid_motion(problem_, *w));
+    answer.stress = largest_stress();
+    return answer;
+  }
+
+  std::string faces_csv(const ContactPicture& contact) const {
+    std::string text = "face,along_mm,x_mm,y_mm,pressure_MPa,shear_MPa,gap_mm,slip_mm,state\n";
+    const int m = system_.contact.components, n = system_.contact.per_edge;
+    for (const std::vector<int>& chain : boundary_chains(mesh_, BoundaryRole::contact)) {
+      double start = 0;
+      for (const int row : chain) {
+        const int first = point_of_row_[static_cast<std::size_t>(row)];
+        AlongEdge normal(n), tangential = AlongEdge::Zero(n);
+        for (int j = 0; j < n; ++j) {
+          normal(j) = F_C_(m * (first + j));
+          if (m == 2) tangential(j) = F_C_(m * (first + j) + 1);
+        }
+        const AlongEdge pressure = pressure_along(problem_, row, normal),
+                        shear = -pressure_along(problem_, row, tangential);
+        const double whole = length(row);
+        constexpr int parts = 4;
+        for (int i = 0; i <= parts; ++i) {
+          const double s = static_cast<double>(i) / parts;
+          const Eigen::Vector2d x = at(row, s);
+          const auto p = static_cast<std::size_t>(first + std::lround(s * (n - 1)));
+          const auto value = [&](const std::vector<double>& of) {
+            return of.empty() ? std::string() : fmt::format("{}", of[p]);
+          };
+          text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_quoted(label(row)),
+                              start + s * whole, x.x(), x.y(), bernstein_value(pressure, s),
+                              bernstein_value(shear, s), value(contact.gap_mm),
+                              value(contact.slip_mm), name_of(contact.state[p]));
+        }
+        start += whole;
+      }
+    }
+    return text;
+  }
+
+ private:
+  struct Side {
+    int triangle, k;
+  };
+
+  int rows() const { return static_cast<int>(mesh_.boundary.size()); }
+  std::string label(int row) const { return boundary_label(mesh_, mesh_.boundary[row]); }
+  bool is_contact(int row) const { return mesh_.boundary[row].role == BoundaryRole::contact; }
+
+  Eigen::Vector2d at(int row, double s) const {
+    const BoundaryEdge& edge = mesh_.boundary[row];
+    if (problem_.follows_curve(row, degree_)) return edge.curve.at(s);
+    return (1 - s) * mesh_.vertices[edge.vertices[0]] + s * mesh_.vertices[edge.vertices[1]];
+  }
+  double length(int row) const {
+    if (!problem_.follows_curve(row, degree_)) return problem_.frame_at(row, 0, 1).length_mm;
+    const CurvedSide<double> side({mesh_.boundary[row].curve.points_mm, {}, {}}, degree_);
+    double sum = 0;
+    for (int q = 0; q < CurvedSide<double>::points; ++q)
+      sum += CurvedSide<double>::weight(q) * side.normal(q).norm();
+    return sum;
+  }
+  // ∫ σn.
+  Eigen::Vector2d force_on(int row) const {
+    const auto [t, k] = side_[static_cast<std::size_t>(row)];
+    const TriangleVertices v = problem_.vertices_of(t);
+    const auto of_triangle = stress_[static_cast<std::size_t>(t)];
+    const ForcesOnEdge forces =
+        problem_.follows_curve(row, degree_)
+            ? curved_edge_forces(v, of_triangle, k,
+                                 {mesh_.boundary[row].curve.points_mm, {}, {}})
+            : element_edge_forces(v, of_triangle, k);
+    return forces * Eigen::VectorXd::Ones(forces.cols());
+  }
+
+  FaceAnswer& face_of(int row, std::map<std::string, FaceAnswer>& faces) const {
+    const int other = problem_.opposite_of(row);
+    const std::string name =
+        other == Problem::no_row ? label(row) : label(row) + " on " + label(other);
+    FaceAnswer& face = faces[name];
+    face.name = name;
+    return face;
+  }
+
+  std::vector<FaceAnswer> faces() const {
+    const ContactPoints& contact = system_.contact;
+    const int m = contact.components, n = contact.per_edge;
+    std::map<std::string, FaceAnswer> faces;
+    for (int row = 0; row < rows(); ++row) {
+      if (!is_contact(row)) continue;
+      if (const int other = problem_.opposite_of(row); other != Problem::no_row)
+        if (std::pair(label(row), row) > std::pair(label(other), other)) continue;
+      FaceAnswer& face = face_of(row, faces);
+      const double whole = length(row);
+      const int first = point_of_row_[static_cast<std::size_t>(row)];
+      AlongEdge normal_forces(n);
+      for (int j = 0; j < n; ++j) {
+        const int p = first + j;
+        normal_forces(j) = F_C_(m * p);
+        face.normal_N += F_C_(m * p);
+        if (m == 2) face.tangential_N += F_C_(m * p + 1);
+        const ContactState state = states_[static_cast<std::size_t>(p)];
+        if (state != ContactState::open) face.closed_mm += whole / n;
+        if (state == ContactState::slip) face.slipping_mm += whole / n;
+      }
+      face.length_mm += whole;
+      face.force_N += force_on(row);
+      const LargestValue largest =
+          largest_value(pressure_along(problem_, row, normal_forces), {face.pressure_MPa.value});
+      if (largest.value > face.pressure_MPa.value)
+        face.pressure_MPa = {largest.value, at(row, largest.s)};
+    }
+    std::vector<FaceAnswer> list;
+    for (auto& [name, face] : faces) list.push_back(std::move(face));
+    return list;
+  }
+
+  std::vector<SupportAnswer> supports() const {
+    std::map<std::string, Eigen::Vector2d> forces;
+    for (int row = 0; row < rows(); ++row)
+      if (mesh_.boundary[row].role == BoundaryRole::displacement)
+        forces.emplace(label(row), Eigen::Vector2d::Zero()).first->second += force_on(row);
+    std::vector<SupportAnswer> list;
+    for (const auto& [name, force] : forces) list.push_back({name, force});
+    return list;
+  }
+
+  // At vertices and middles of edges.
+  ValueAt largest_displacement(const DisplacementField& u) const {
+    ValueAt largest;
+    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
+      const TriangleVertices v = problem_.vertices_of(t);
+      for (int k = 0; k < 6; ++k) {
+        const Eigen::Vector3d start = Eigen::Vector3d::Unit(k % 3),
+                              end = k < 3 ? start : Eigen::Vector3d::Unit((k + 1) % 3);
+        const Eigen::Vector3d lambda = (start + end) / 2;
+        if (const double size = displacement_at(problem_, u, t, lambda).norm();
+            size > largest.value)
+          largest = {size, v * lambda};
+      }
+    }
+    return largest;
+  }
+
+  // B_i of a straight third at its lattice, columns, with the places of its corners' weights.
+  struct Lattice {
+    Eigen::MatrixXd values;
+    std::vector<Eigen::Vector3d> weights;  // of the side's start and end, and the centroid
+    explicit Lattice(int degree) {
+      constexpr int n = 6;
+      values.resize(bernstein_count(degree), bernstein_count(n));
+      for (int c = 0; c <= n; ++c)
+        for (int b = 0; b <= n - c; ++b) {
+          const double y = static_cast<double>(b) / n, z = static_cast<double>(c) / n,
+                       x = static_cast<double>(n - b - c) / n;
+          const auto column = static_cast<Eigen::Index>(weights.size());
+          for (int j = 0; j <= degree; ++j)
+            for (int i = 0; i <= degree - j; ++i)
+              values(ring_place(degree, i, j), column) =
+                  binomial(degree, i) * binomial(degree - i, j) * std::pow(x, degree - i - j) *
+                  std::pow(y, i) * std::pow(z, j);
+          weights.emplace_back(x, y, z);
+        }
+    }
+  };
+
+  LargestStress largest_stress() const {
+    LargestStress largest;
+    const Lattice lattice(degree_);
+    int where = 0;
+    const auto consider = [&](int t, const Eigen::Vector3d& s, const Eigen::Vector2d& x) {
+      const double poisson =
+          problem_.poisson_zz.empty() ? 0 : problem_.poisson_zz[mesh_.triangle_body[t]];
+      if (const double value = von_mises(s, poisson); value > largest.von_mises_MPa.value) {
+        largest.von_mises_MPa = {value, x};
+        where = t;
+      }
+      for (const double value : principal_stresses(s))
+        if (std::abs(value) > std::abs(largest.principal_MPa.value))
+          largest.principal_MPa = {value, x};
+    };
+    const Eigen::Index third = bernstein_count(degree_);
+    for (int t = 0; t < static_cast<int>(stress_.size()); ++t) {
+      const TriangleVertices v = problem_.vertices_of(t);
+      const Eigen::Vector2d centroid = v.rowwise().mean();
+      const auto curves = problem_.curves_of(t, degree_);
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Matrix3Xd own = stress_[static_cast<std::size_t>(t)].middleCols(k * third, third);
+        if (curves && !(*curves)[static_cast<std::size_t>(k)].is_straight()) {
+          const CurvedSide<double> side((*curves)[static_cast<std::size_t>(k)], degree_);
+          for (int q = 0; q < CurvedSide<double>::points; ++q)
+            for (const double rho : {1., 0.5})
+              consider(t, own * side.bernstein(centroid, q, rho),
+                       centroid + rho * (side.at(q) - centroid));
+          consider(t, own.col(0), v.col(k));
+          consider(t, own.col(degree_), v.col((k + 1) % 3));
+          continue;
+        }
+        const Eigen::Matrix3Xd at_lattice = own * lattice.values;
+        Eigen::Matrix<double, 2, 3> corners;
+        corners << v.col(k), v.col((k + 1) % 3), centroid;
+        for (std::size_t i = 0; i < lattice.weights.size(); ++i)
+          consider(t, at_lattice.col(static_cast<Eigen::Index>(i)), corners * lattice.weights[i]);
+      }
+    }
+    largest.unbounded = singular_place_near(largest.von_mises_MPa.at_mm, where);
+    return largest;
+  }
+
+  // How a side is held: not at all, along its normal only, or as a whole.
+  enum class Hold : std::uint8_t { free, normal, full };
+  Hold hold_at(int row, bool at_end) const {
+    switch (mesh_.boundary[row].role) {
+      case BoundaryRole::force:
+        return Hold::free;
+      case BoundaryRole::displacement:
+        return problem_.is_roller(row) ? Hold::normal : Hold::full;
+      case BoundaryRole::contact:
+        break;
+    }
+    const int p = point_of_row_[static_cast<std::size_t>(row)] +
+                  (at_end ? system_.contact.per_edge - 1 : 0);
+    switch (states_[static_cast<std::size_t>(p)]) {
+      case ContactState::open:
+        return Hold::free;
+      case ContactState::stick:
+        return Hold::full;
+      case ContactState::slip:
+        break;
+    }
+    return Hold::normal;
+  }
+  Eigen::Vector2d direction(int row, double s) const {
+    const BoundaryEdge& edge = mesh_.boundary[row];
+    return problem_.follows_curve(row, degree_)
+               ? edge.curve.derivative(s)
+               : Eigen::Vector2d(mesh_.vertices[edge.vertices[1]] -
+                                 mesh_.vertices[edge.vertices[0]]);
+  }
+
+  // By the exponents of wedges: clamped and free from 60° on at the latest; a side held along its
+  // normal is half of a wedge of twice the angle.
+  std::optional<std::string> what_is_singular(int before, int after) const {
+    constexpr double degree = std::numbers::pi / 180;
+    const Eigen::Vector2d in = direction(before, 1), out = direction(after, 0);
+    const double inside =
+        std::numbers::pi - std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+    const Hold a = hold_at(before, true), b = hold_at(after, false);
+    const auto [less, more] = std::minmax(a, b);
+    if (a == b)
+      return inside > 181 * degree ? std::optional<std::string>("a re-entrant corner")
+                                   : std::nullopt;
+    if (less == Hold::free && more == Hold::full)
+      return inside > 60 * degree ? std::optional(end_of(before, after)) : std::nullopt;
+    return inside > 91 * degree ? std::optional(end_of(before, after)) : std::nullopt;
+  }
+  std::string end_of(int before, int after) const {
+    for (const int row : {before, after})
+      if (is_contact(row)) return "the end of " + label(row);
+    const bool is_first = mesh_.boundary[before].role == BoundaryRole::displacement;
+    return "the end of " + label(is_first ? before : after);
+  }
+
+  std::optional<SingularPlace> singular_place_near(const Eigen::Vector2d& x, int triangle) const {
+    const TriangleVertices v = problem_.vertices_of(triangle);
+    double size = 0;
+    for (int k = 0; k < 3; ++k) size = std::max(size, (v.col((k + 1) % 3) - v.col(k)).norm());
+    std::map<int, int> before;  // rows that end in a vertex
+    for (int row = 0; row < rows(); ++row) before[mesh_.boundary[row].vertices[1]] = row;
+    for (int row = 0; row < rows(); ++row) {
+      const int vertex = mesh_.boundary[row].vertices[0];
+      if ((mesh_.vertices[vertex] - x).norm() > 2 * size) continue;
+      if (const auto what = what_is_singular(before.at(vertex), row))
+        return SingularPlace{mesh_.vertices[vertex], *what};
+    }
+    return {};
+  }
+
+  const DualSystem& system_;
+  const Problem& problem_;
+  const Mesh& mesh_;
+  const StressField& stress_;
+  int degree_;
+  const Eigen::VectorXd& F_C_;
+  std::vector<ContactState> states_;
+  std::vector<Side> side_;         // per row of Mesh::boundary
+  std::vector<int> point_of_row_;  // its first contact point
+};
+
+Json point(const Eigen::Vector2d& x) { return Json::array({x.x(), x.y()}); }
+Json to_json(const ValueAt& value) { return {{"value", value.value}, {"at_mm", point(value.at_mm)}}; }
+
+}  // namespace
+
+// Gap, slip and state are those of the nearest contact point.
+std::string faces_csv(const SolvedFields& fields, const ContactPicture& contact) {
+  return PartReader(fields).faces_csv(contact);
+}
+
+PartAnswer part_answer(const SolvedFields& fields) { return PartReader(fields).answer(fields.w); }
+
+double von_mises(const Eigen::Vector3d& s, double poisson_zz) {
+  const double zz = poisson_zz * (s(0) + s(1));
+  return std::sqrt(((s(0) - s(1)) * (s(0) - s(1)) + (s(1) - zz) * (s(1) - zz) +
+                    (zz - s(0)) * (zz - s(0))) /
+                       2 +
+                   3 * s(2) * s(2));
+}
+
+Eigen::Vector2d principal_stresses(const Eigen::Vector3d& s) {
+  const double middle = (s(0) + s(1)) / 2, radius = std::hypot((s(0) - s(1)) / 2, s(2));
+  return {middle + radius, middle - radius};
+}
+
+Json to_json(const PartAnswer& answer) {
+  Json json = {{"faces", Json::array()}, {"supports", Json::array()}};
+  for (const FaceAnswer& face : answer.faces)
+    json["faces"].push_back({{"name", face.name},
+                             {"force_N", point(face.force_N)},
+                             {"normal_N", face.normal_N},
+                             {"tangential_N", face.tangential_N},
+                             {"length_mm", face.length_mm},
+                             {"closed_mm", face.closed_mm},
+                             {"slipping_mm", face.slipping_mm},
+                             {"pressure_MPa", to_json(face.pressure_MPa)}});
+  for (const SupportAnswer& support : answer.supports)
+    json["supports"].push_back({{"name", support.name}, {"force_N", point(support.force_N)}});
+  if (answer.displacement_mm) json["displacement_mm"] = to_json(*answer.displacement_mm);
+  json["von_mises_MPa"] = to_json(answer.stress.von_mises_MPa);
+  json["principal_MPa"] = to_json(answer.stress.principal_MPa);
+  if (const auto& place = answer.stress.unbounded)
+    json["unbounded"] = {{"what", place->what}, {"at_mm", point(place->at_mm)}};
+  return json;
+}
+
+}  // namespace airybench

@@ -1,0 +1,64 @@
+// What an engineer asks of a part: forces, pressure and contact by face, reactions, the largest
+// stress and displacement. Written as NAME.answer.json next to the fields.
+//
+// Largest values are those of samples of the stresses' polynomials, 28 and more a third. Where the
+// exact stress is infinite (a corner of more than 180°, the end of a support or of a face that
+// sticks) they grow with every refinement; such places are named instead.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/measure/field_files.hpp"
+#include "bench/records/json.hpp"
+
+namespace airybench {
+
+struct ValueAt {
+  double value = 0;
+  Eigen::Vector2d at_mm = {0, 0};
+};
+
+struct FaceAnswer {
+  std::string name;                          // "contact:sole", "contact:pin on contact:eye"
+  Eigen::Vector2d force_N = {0, 0};          // on its body, of a pair on the first
+  double normal_N = 0, tangential_N = 0;     // Σ F_n, Σ F_t
+  double length_mm = 0, closed_mm = 0, slipping_mm = 0;  // of it: in contact, of that: slipping
+  ValueAt pressure_MPa;
+};
+
+struct SupportAnswer {
+  std::string name;
+  Eigen::Vector2d force_N = {0, 0};  // on the body
+};
+
+struct SingularPlace {
+  Eigen::Vector2d at_mm;
+  std::string what;  // "a re-entrant corner"
+};
+
+struct LargestStress {
+  ValueAt von_mises_MPa, principal_MPa;      // principal: the largest by magnitude, with its sign
+  std::optional<SingularPlace> unbounded;  // where the largest is found next to such a place
+};
+
+struct PartAnswer {
+  std::vector<FaceAnswer> faces;
+  std::vector<SupportAnswer> supports;
+  std::optional<ValueAt> displacement_mm;
+  LargestStress stress;
+};
+
+// Of the body; stresses are the method's own.
+PartAnswer part_answer(const SolvedFields& fields);
+Json to_json(const PartAnswer& answer);
+// NAME.faces.csv of field_files.hpp; contact: of these fields.
+std::string faces_csv(const SolvedFields& fields, const ContactPicture& contact);
+
+// √(σ:σ 3/2 − …) of (xx, yy, xy) and σ_zz = ν (σ_xx + σ_yy).
+double von_mises(const Eigen::Vector3d& stress, double poisson_zz);
+// The in-plane principal stresses, the larger first.
+Eigen::Vector2d principal_stresses(const Eigen::Vector3d& stress);
+
+}  // namespace airybench

@@ -1,0 +1,132 @@
+#include "bench/report/part_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bench/records/summary.hpp"
+#include "support/text_table.hpp"
+
+namespace airybench {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string number(double value) { return fmt::format("{:.5g}", value); }
+std::string place(const Json& x) {
+  return fmt::format("({:.5g}, {:.5g})", x[0].get<double>(), x[1].get<double>());
+}
+std::string force(const Json& of) {
+  return fmt::format("{:.5g}, {:.5g}", of[0].get<double>(), of[1].get<double>());
+}
+
+std::string within(const std::optional<double>& low, const std::optional<double>& high) {
+  return low && high ? fmt::format(" in [{:.5g}, {:.5g}]", *low, *high) : "";
+}
+
+std::string faces_table(const Json& part) {
+  if (part["faces"].empty()) return "";
+  Rows rows = {{"contact", "force x, y N", "F_n N", "F_t N", "peak MPa", "at mm", "closed mm",
+                "of that slips mm"}};
+  for (const Json& face : part["faces"]) {
+    const double closed = face["closed_mm"], length = face["length_mm"],
+                 peak = face["pressure_MPa"]["value"];
+    rows.push_back({face["name"], force(face["force_N"]), number(face["normal_N"]),
+                    number(face["tangential_N"]), peak > 0 ? number(peak) : "-",
+                    peak > 0 ? place(face["pressure_MPa"]["at_mm"]) : "-",
+                    fmt::format("{:.4g} of {:.4g}", closed, length),
+                    closed > 0 ? fmt::format("{:.4g}", face["slipping_mm"].get<double>()) : "-"});
+  }
+  return aligned_table(rows, 1) + "\n";
+}
+
+std::string supports_table(const Json& part) {
+  if (part["supports"].empty()) return "";
+  Rows rows = {{"support", "force x, y N", ""}};
+  for (const Json& support : part["supports"])
+    rows.push_back({support["name"], force(support["force_N"]), ""});
+  return aligned_table(rows, 1) + "\n";
+}
+
+std::string contact_lines(const Record& r) {
+  std::string text;
+  if (!r.largest_pressure_MPa || *r.largest_pressure_MPa <= 0) return text;
+  if (r.normal_resultant_N)
+    text += fmt::format("Σ F_n {:.5g} N{}{}\n", *r.normal_resultant_N,
+                        within(r.normal_resultant_low_N, r.normal_resultant_high_N),
+                        r.normal_resultant_low_N ? ", " + r.intervals : "");
+  if (r.largest_pressure_is == "unbounded")
+    return text + "largest pressure: unbounded, at a sharp edge\n";
+  text += fmt::format("largest pressure {:.5g} MPa{}", *r.largest_pressure_MPa,
+                      within(r.largest_pressure_low_MPa, r.largest_pressure_high_MPa));
+  if (r.largest_pressure_is != "bounded")
+    text += ": where contact ends sharply the exact one may be infinite";
+  return text + "\n";
+}
+
+std::string stress_lines(const Json& part) {
+  std::string text;
+  if (part.contains("displacement_mm"))
+    text += fmt::format("largest displacement {:.5g} mm at {}\n",
+                        part["displacement_mm"]["value"].get<double>(),
+                        place(part["displacement_mm"]["at_mm"]));
+  if (part.contains("unbounded"))
+    return text + fmt::format("largest stress: unbounded at {}, {}\n",
+                              place(part["unbounded"]["at_mm"]),
+                              part["unbounded"]["what"].get<std::string>());
+  for (const auto& [name, key] : {std::pair("von Mises", "von_mises_MPa"),
+                                  {"principal", "principal_MPa"}})
+    text += fmt::format("largest {} stress {:.5g} MPa at {}\n", name,
+                        part[key]["value"].get<double>(), place(part[key]["at_mm"]));
+  return text;
+}
+
+std::string steps_table(const Record& record) {
+  if (record.steps.size() < 2) return "";
+  Rows rows = {{"step", "F_n N", "F_t N", "energy N mm", "dissipation N mm", "total error", ""}};
+  const auto cell = [](const Json& step, const char* key) {
+    const std::optional<double> value = number_at(step, key);
+    return value ? number(*value) : std::string("-");
+  };
+  for (std::size_t k = 0; k < record.steps.size(); ++k) {
+    const Json& step = record.steps[k];
+    rows.push_back({std::to_string(k + 1), cell(step, "normal_resultant_N"),
+                    cell(step, "tangential_resultant_N"), cell(step, "strain_energy_Nmm"),
+                    cell(step, "dissipation_Nmm"),
+                    show_error(number_at(step, "error_discretisation")), ""});
+  }
+  return aligned_table(rows, 1) + "\n";
+}
+
+std::string error_line(const Record& r) {
+  if (!r.error_total)
+    return fmt::format("its total error is not known{}{}\n",
+                       r.no_discretisation_error.empty() ? "" : ": ", r.no_discretisation_error);
+  return fmt::format(
+      "total error {:.2g} % in energy: of the mesh, its curves and the solver; not in it: small "
+      "strains, Coulomb's law, what is prescribed\n",
+      100 * *r.error_total);
+}
+
+}  // namespace
+
+std::string part_table(const Record& record, const Json& part) {
+  std::string text;
+  if (!part.is_null()) {
+    text += faces_table(part) + supports_table(part);
+    if (!part["faces"].empty()) text += contact_lines(record);
+    text += stress_lines(part);
+  }
+  text += steps_table(record);
+  if (record.strain_energy_Nmm)
+    text += fmt::format("strain energy {:.5g} N mm\n", *record.strain_energy_Nmm);
+  text += error_line(record);
+  const std::string why =
+      record.status_reason.empty() ? "" : fmt::format(": {}", record.status_reason);
+  if (record.status != Status::ok || !why.empty())
+    text += fmt::format("{}{}\n", name_of(record.status), why);
+  return text;
+}
+
+}  // namespace airybench
