@@ -56,9 +56,9 @@ Goal goal_of(const std::string& text) {
                                          {"force", Quantity::force},
                                          {"pressure", Quantity::pressure}})
       if (word == name) return {*goal->error, quantity};
-  throw UsageError(fmt::format(
-      "--error: {} (allowed: above 0% and below 100%, as 1%, 1%:force, 1%:pressure)",
-      shortened(text)));
+  throw UsageError(
+      fmt::format("--error: {} (allowed: above 0% and below 100%, as 1%, 1%:force, 1%:pressure)",
+                  shortened(text)));
 }
 
 Options parse_solve(int argc, const char* const* argv, std::optional<Goal>& goal) {
@@ -174,8 +174,7 @@ int solve_command(int argc, const char* const* argv) {
   const std::optional<Solved> answer = solved(start, options, *goal);
   if (!answer) return some_case_failed;
   const Record& record = answer->record;
-  const std::filesystem::path fields =
-      options.output.folder / "fields" / name_of(record).file();
+  const std::filesystem::path fields = options.output.folder / "fields" / name_of(record).file();
   std::error_code error;
   const std::filesystem::path of_part = fields.string() + ".answer.json";
   const Json part = std::filesystem::exists(of_part, error)

@@ -71,10 +71,10 @@ class PartReader {
           const auto value = [&](const std::vector<double>& of) {
             return of.empty() ? std::string() : fmt::format("{}", of[p]);
           };
-          text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_quoted(label(row)),
-                              start + s * whole, x.x(), x.y(), bernstein_value(pressure, s),
-                              bernstein_value(shear, s), value(contact.gap_mm),
-                              value(contact.slip_mm), name_of(contact.state[p]));
+          text +=
+              fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_quoted(label(row)), start + s * whole,
+                          x.x(), x.y(), bernstein_value(pressure, s), bernstein_value(shear, s),
+                          value(contact.gap_mm), value(contact.slip_mm), name_of(contact.state[p]));
         }
         start += whole;
       }
@@ -111,8 +111,7 @@ class PartReader {
     const auto of_triangle = stress_[static_cast<std::size_t>(t)];
     const ForcesOnEdge forces =
         problem_.follows_curve(row, degree_)
-            ? curved_edge_forces(v, of_triangle, k,
-                                 {mesh_.boundary[row].curve.points_mm, {}, {}})
+            ? curved_edge_forces(v, of_triangle, k, {mesh_.boundary[row].curve.points_mm, {}, {}})
             : element_edge_forces(v, of_triangle, k);
     return forces * Eigen::VectorXd::Ones(forces.cols());
   }
@@ -229,7 +228,8 @@ class PartReader {
       const Eigen::Vector2d centroid = v.rowwise().mean();
       const auto curves = problem_.curves_of(t, degree_);
       for (int k = 0; k < 3; ++k) {
-        const Eigen::Matrix3Xd own = stress_[static_cast<std::size_t>(t)].middleCols(k * third, third);
+        const Eigen::Matrix3Xd own =
+            stress_[static_cast<std::size_t>(t)].middleCols(k * third, third);
         if (curves && !(*curves)[static_cast<std::size_t>(k)].is_straight()) {
           const CurvedSide<double> side((*curves)[static_cast<std::size_t>(k)], degree_);
           for (int q = 0; q < CurvedSide<double>::points; ++q)
@@ -262,8 +262,8 @@ class PartReader {
       case BoundaryRole::contact:
         break;
     }
-    const int p = point_of_row_[static_cast<std::size_t>(row)] +
-                  (at_end ? system_.contact.per_edge - 1 : 0);
+    const int p =
+        point_of_row_[static_cast<std::size_t>(row)] + (at_end ? system_.contact.per_edge - 1 : 0);
     switch (states_[static_cast<std::size_t>(p)]) {
       case ContactState::open:
         return Hold::free;
@@ -276,10 +276,9 @@ class PartReader {
   }
   Eigen::Vector2d direction(int row, double s) const {
     const BoundaryEdge& edge = mesh_.boundary[row];
-    return problem_.follows_curve(row, degree_)
-               ? edge.curve.derivative(s)
-               : Eigen::Vector2d(mesh_.vertices[edge.vertices[1]] -
-                                 mesh_.vertices[edge.vertices[0]]);
+    return problem_.follows_curve(row, degree_) ? edge.curve.derivative(s)
+                                                : Eigen::Vector2d(mesh_.vertices[edge.vertices[1]] -
+                                                                  mesh_.vertices[edge.vertices[0]]);
   }
 
   // By the exponents of wedges: clamped and free from 60° on at the latest; a side held along its
@@ -332,7 +331,9 @@ class PartReader {
 };
 
 Json point(const Eigen::Vector2d& x) { return Json::array({x.x(), x.y()}); }
-Json to_json(const ValueAt& value) { return {{"value", value.value}, {"at_mm", point(value.at_mm)}}; }
+Json to_json(const ValueAt& value) {
+  return {{"value", value.value}, {"at_mm", point(value.at_mm)}};
+}
 
 }  // namespace
 
@@ -345,10 +346,9 @@ PartAnswer part_answer(const SolvedFields& fields) { return PartReader(fields).a
 
 double von_mises(const Eigen::Vector3d& s, double poisson_zz) {
   const double zz = poisson_zz * (s(0) + s(1));
-  return std::sqrt(((s(0) - s(1)) * (s(0) - s(1)) + (s(1) - zz) * (s(1) - zz) +
-                    (zz - s(0)) * (zz - s(0))) /
-                       2 +
-                   3 * s(2) * s(2));
+  return std::sqrt(
+      ((s(0) - s(1)) * (s(0) - s(1)) + (s(1) - zz) * (s(1) - zz) + (zz - s(0)) * (zz - s(0))) / 2 +
+      3 * s(2) * s(2));
 }
 
 Eigen::Vector2d principal_stresses(const Eigen::Vector3d& s) {

@@ -21,9 +21,9 @@ struct ValueAt {
 };
 
 struct FaceAnswer {
-  std::string name;                          // "contact:sole", "contact:pin on contact:eye"
-  Eigen::Vector2d force_N = {0, 0};          // on its body, of a pair on the first
-  double normal_N = 0, tangential_N = 0;     // Σ F_n, Σ F_t
+  std::string name;                       // "contact:sole", "contact:pin on contact:eye"
+  Eigen::Vector2d force_N = {0, 0};       // on its body, of a pair on the first
+  double normal_N = 0, tangential_N = 0;  // Σ F_n, Σ F_t
   double length_mm = 0, closed_mm = 0, slipping_mm = 0;  // of it: in contact, of that: slipping
   ValueAt pressure_MPa;
 };
@@ -39,7 +39,7 @@ struct SingularPlace {
 };
 
 struct LargestStress {
-  ValueAt von_mises_MPa, principal_MPa;      // principal: the largest by magnitude, with its sign
+  ValueAt von_mises_MPa, principal_MPa;    // principal: the largest by magnitude, with its sign
   std::optional<SingularPlace> unbounded;  // where the largest is found next to such a place
 };
 

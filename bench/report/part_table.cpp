@@ -75,8 +75,8 @@ std::string stress_lines(const Json& part) {
     return text + fmt::format("largest stress: unbounded at {}, {}\n",
                               place(part["unbounded"]["at_mm"]),
                               part["unbounded"]["what"].get<std::string>());
-  for (const auto& [name, key] : {std::pair("von Mises", "von_mises_MPa"),
-                                  {"principal", "principal_MPa"}})
+  for (const auto& [name, key] :
+       {std::pair("von Mises", "von_mises_MPa"), {"principal", "principal_MPa"}})
     text += fmt::format("largest {} stress {:.5g} MPa at {}\n", name,
                         part[key]["value"].get<double>(), place(part[key]["at_mm"]));
   return text;

@@ -1,0 +1,103 @@
+// What is printed of a part: against the contact forces, balance and stresses that it comes from.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "bench/measure/part_answer.hpp"
+#include "bench/report/part_table.hpp"
+#include "support/lists.hpp"
+#include "tests/bench/verify/solved.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::part_answer_test {
+namespace {
+
+TEST(PartAnswer, EquivalentAndPrincipalStresses) {
+  EXPECT_DOUBLE_EQ(von_mises({-7, 0, 0}, 0), 7);
+  EXPECT_DOUBLE_EQ(von_mises({0, 0, 2}, 0.3), 2 * std::sqrt(3.));
+  EXPECT_NEAR(von_mises({1, 1, 0}, 0.5), 0, 1e-15);  // the same in all directions
+  EXPECT_EQ(principal_stresses({1, 1, 3}), Eigen::Vector2d(4, -2));
+}
+
+class OfTooth : public ::testing::TestWithParam<int> {
+ protected:
+  const testing::Solved solved_{Scene{}, testing::small_tooth(6, 4), GetParam()};
+  const SolvedFields fields_{solved_.system, solved_.hybrid, solved_.w, nullptr, {}};
+  const PartAnswer answer_ = part_answer(fields_);
+};
+
+TEST_P(OfTooth, ForcesAreThoseOfTheLawAndInBalance) {
+  ASSERT_EQ(answer_.faces.size(), 1u);
+  ASSERT_EQ(answer_.supports.size(), 1u);
+  const FaceAnswer& face = answer_.faces.front();
+  const Eigen::VectorXd& F = solved_.hybrid.F_C;
+  double normal = 0, tangential = 0;
+  for (Eigen::Index i = 0; i < F.size(); i += 2) {
+    normal += F(i);
+    tangential += F(i + 1);
+  }
+  EXPECT_NEAR(face.normal_N, normal, 1e-9 * std::abs(normal));
+  EXPECT_NEAR(face.tangential_N, tangential, 1e-9 * std::abs(normal));
+  EXPECT_LT((face.force_N + answer_.supports.front().force_N).norm(), 1e-8 * std::abs(normal));
+  EXPECT_NEAR(face.force_N.norm(), std::hypot(normal, tangential), 1e-8 * std::abs(normal));
+}
+
+TEST_P(OfTooth, ContactLengthsAddUp) {
+  const FaceAnswer& face = answer_.faces.front();
+  EXPECT_NEAR(face.length_mm, 6, 1e-12);
+  EXPECT_GT(face.closed_mm, 0);
+  EXPECT_LT(face.closed_mm, face.length_mm);  // the wall has a crown
+  EXPECT_GT(face.slipping_mm, 0);
+  EXPECT_LT(face.slipping_mm, face.closed_mm);
+}
+
+TEST_P(OfTooth, TheLargestStressIsAtAnEndOfTheSupport) {
+  EXPECT_GT(answer_.stress.von_mises_MPa.value, answer_.faces.front().pressure_MPa.value / 2);
+  ASSERT_TRUE(answer_.stress.unbounded);
+  EXPECT_EQ(answer_.stress.unbounded->what, "the end of displacement");
+  EXPECT_NEAR(answer_.stress.unbounded->at_mm.x(), 0, 1e-12);
+  ASSERT_TRUE(answer_.displacement_mm);
+  EXPECT_GE(answer_.displacement_mm->value, Scene().displacement_mm.norm() * (1 - 1e-9));
+}
+
+// The pressures of the file, integrated by Simpson's rule over each half edge.
+TEST_P(OfTooth, TheFileOfFacesHasThePressure) {
+  std::istringstream lines(
+      faces_csv(fields_, contact_picture(solved_.system, solved_.hybrid, solved_.w)));
+  std::vector<std::vector<double>> rows;
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "face,along_mm,x_mm,y_mm,pressure_MPa,shear_MPa,gap_mm,slip_mm,state");
+  double largest = 0;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = split_list(line);
+    ASSERT_EQ(cells.size(), 9u);
+    EXPECT_EQ(cells[0], "contact");
+    rows.push_back({std::stod(cells[1]), std::stod(cells[4]), std::stod(cells[5])});
+    largest = std::max(largest, rows.back()[1]);
+  }
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (std::size_t k = 0; k + 2 < rows.size(); k += k % 5 == 2 ? 3 : 2) {
+    const double part = (rows[k + 2][0] - rows[k][0]) / 6;
+    for (int i = 0; i < 2; ++i)
+      sum(i) += part * (rows[k][1 + i] + 4 * rows[k + 1][1 + i] + rows[k + 2][1 + i]);
+  }
+  const FaceAnswer& face = answer_.faces.front();
+  const double allowed = (GetParam() > 3 ? 1e-3 : 1e-9) * std::abs(face.normal_N);
+  EXPECT_NEAR(sum(0), -face.normal_N, allowed);
+  EXPECT_NEAR(sum(1), face.tangential_N, allowed);
+  EXPECT_LE(largest, face.pressure_MPa.value * (1 + 1e-9));
+}
+
+INSTANTIATE_TEST_SUITE_P(Degrees, OfTooth, ::testing::Values(1, 2, 3));
+
+TEST(PartTable, SaysWhatIsNotKnown) {
+  Record record;
+  record.status = Status::ok;
+  record.no_discretisation_error = "a step has no answer";
+  EXPECT_EQ(part_table(record, {}), "its total error is not known: a step has no answer\n");
+}
+
+}  // namespace
+}  // namespace airybench::part_answer_test
