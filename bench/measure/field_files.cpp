@@ -132,7 +132,7 @@ std::vector<Number> of_thirds(const std::vector<Number>& of_triangles) {
 std::string vtu_of_body(const Problem& problem, const StressField& stress,
                         const std::optional<DisplacementField>& u, const ConstitutiveError* error) {
   VtuGrid grid;
-  std::vector<double> stresses;
+  std::vector<double> stresses, across, equivalent, principal;
   std::vector<Eigen::Vector2d> displacements;
   std::vector<std::int32_t> triangles;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
@@ -141,6 +141,13 @@ std::string vtu_of_body(const Problem& problem, const StressField& stress,
     const ElementStress corners = stress.corners(static_cast<std::size_t>(t));
     stresses.insert(stresses.end(), corners.data(), corners.data() + corners.size());
     triangles.push_back(t + 1);
+    if (!problem.poisson_zz.empty())
+      for (const auto s : corners.colwise()) {
+        const double poisson = problem.poisson_zz[problem.mesh.triangle_body[t]];
+        across.push_back(poisson * (s(0) + s(1)));
+        equivalent.push_back(von_mises(s, poisson));
+        for (const double value : principal_stresses(s)) principal.push_back(value);
+      }
     if (!u) continue;
     const Eigen::Matrix<double, 2, 6> values = values_at_nodes(problem, t, *u);
     for (int c = 0; c < 9; ++c)
@@ -149,6 +156,9 @@ std::string vtu_of_body(const Problem& problem, const StressField& stress,
                      : Eigen::Vector2d(values.col((c / 3 + c % 3) % 3)));
   }
   grid.of_points = vtu_array("stress_MPa", stresses, {"xx", "yy", "xy"});
+  if (!across.empty())
+    grid.of_points += vtu_array("stress_zz_MPa", across) + vtu_array("von_mises_MPa", equivalent) +
+                      vtu_array("principal_MPa", principal, {"larger", "smaller"});
   if (u) grid.of_points += vtu_vectors("displacement_mm", displacements);
   const std::vector<int>& bodies = problem.mesh.triangle_body;
   grid.of_cells =
