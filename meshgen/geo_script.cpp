@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <optional>
+#include <set>
 #include <string_view>
 
 #include "mesh/model_format.hpp"
@@ -37,8 +38,8 @@ std::vector<Token> tokens_of(std::string_view text) {
     } else if (text.starts_with("/*")) {
       const std::size_t end = text.find("*/", 2);
       cut(end == text.npos ? end : end + 2);
-    } else if (text.front() == '"') {
-      const std::size_t end = text.find('"', 1);
+    } else if (text.front() == '"' || text.front() == '\'') {
+      const std::size_t end = text.find(text.front(), 1);
       const std::string_view quoted = cut(end == text.npos ? end : end + 1);
       tokens.push_back({Token::literal, std::string(quoted.substr(1, quoted.size() - 2))});
     } else if (is_of_word(text.front())) {
@@ -64,6 +65,247 @@ constexpr auto outside = std::to_array<std::string_view>(
     {"MergeFile", "ShapeFromFile", "FileExists", "FileName", "GetEnv", "GetNumber", "GetString",
      "OnelabRun", "ExternalProcess", "CommandLine", "Rand", "Cpu", "Memory", "TotalMemory", "Today",
      "System", "SystemCall", "NonBlockingSystemCall"});
+
+// Words of Gmsh that read nothing and give the same each time. After a dot only these are known.
+const std::set<std::string_view> harmless = {"Abs",
+                                             "Acos",
+                                             "Affine",
+                                             "Algorithm",
+                                             "Alternate",
+                                             "Asin",
+                                             "Atan",
+                                             "Atan2",
+                                             "Attractor",
+                                             "AutoCoherence",
+                                             "BSpline",
+                                             "Background",
+                                             "Ball",
+                                             "Beta",
+                                             "Bezier",
+                                             "BooleanDifference",
+                                             "BooleanFragments",
+                                             "BooleanIntersection",
+                                             "BooleanUnion",
+                                             "Boundary",
+                                             "BoundingBox",
+                                             "Box",
+                                             "Bump",
+                                             "Call",
+                                             "Ceil",
+                                             "Chamfer",
+                                             "Characteristic",
+                                             "CharacteristicLengthExtendFromBoundary",
+                                             "CharacteristicLengthFactor",
+                                             "CharacteristicLengthFromCurvature",
+                                             "CharacteristicLengthFromPoints",
+                                             "CharacteristicLengthMax",
+                                             "CharacteristicLengthMin",
+                                             "Choices",
+                                             "Circle",
+                                             "Closed",
+                                             "Coherence",
+                                             "CombinedBoundary",
+                                             "Compound",
+                                             "Cone",
+                                             "Constant",
+                                             "Cos",
+                                             "Cosh",
+                                             "Curve",
+                                             "CurvesList",
+                                             "Cylinder",
+                                             "DefineConstant",
+                                             "DefineNumber",
+                                             "Delete",
+                                             "Dilate",
+                                             "Disk",
+                                             "DistMax",
+                                             "DistMin",
+                                             "Distance",
+                                             "Duplicata",
+                                             "EdgesList",
+                                             "ElementOrder",
+                                             "Ellipse",
+                                             "Else",
+                                             "ElseIf",
+                                             "Embed",
+                                             "EndFor",
+                                             "EndIf",
+                                             "Error",
+                                             "Exp",
+                                             "Extrude",
+                                             "F",
+                                             "Fabs",
+                                             "FacesList",
+                                             "Field",
+                                             "FieldsList",
+                                             "Fillet",
+                                             "Filling",
+                                             "Floor",
+                                             "Fmod",
+                                             "For",
+                                             "Function",
+                                             "General",
+                                             "Geometry",
+                                             "Hide",
+                                             "Hypot",
+                                             "IField",
+                                             "If",
+                                             "In",
+                                             "InField",
+                                             "Include",
+                                             "Label",
+                                             "Layers",
+                                             "LcMax",
+                                             "LcMin",
+                                             "Left",
+                                             "Length",
+                                             "LinSpace",
+                                             "Line",
+                                             "Log",
+                                             "Log10",
+                                             "LogSpace",
+                                             "Loop",
+                                             "Macro",
+                                             "MathEval",
+                                             "Max",
+                                             "Merge",
+                                             "Mesh",
+                                             "MeshSize",
+                                             "MeshSizeExtendFromBoundary",
+                                             "MeshSizeFactor",
+                                             "MeshSizeFromCurvature",
+                                             "MeshSizeFromPoints",
+                                             "MeshSizeMax",
+                                             "MeshSizeMin",
+                                             "Min",
+                                             "Modulo",
+                                             "MshFileVersion",
+                                             "NNodesByEdge",
+                                             "Name",
+                                             "NodesList",
+                                             "OCCBooleanPreserveNumbering",
+                                             "OldNewReg",
+                                             "Optimize",
+                                             "Periodic",
+                                             "Physical",
+                                             "Pi",
+                                             "Plane",
+                                             "Point",
+                                             "PointsList",
+                                             "PointsOf",
+                                             "Printf",
+                                             "Progression",
+                                             "Radius",
+                                             "RandomFactor",
+                                             "Range",
+                                             "ReadOnly",
+                                             "RecombinationAlgorithm",
+                                             "Recombine",
+                                             "RecombineAll",
+                                             "Rectangle",
+                                             "Restrict",
+                                             "Return",
+                                             "Reverse",
+                                             "Right",
+                                             "Rotate",
+                                             "Round",
+                                             "Ruled",
+                                             "Sampling",
+                                             "SaveAll",
+                                             "ScalingFactor",
+                                             "SecondOrderLinear",
+                                             "SetFactory",
+                                             "Show",
+                                             "Sigmoid",
+                                             "Sin",
+                                             "Sinh",
+                                             "SizeMax",
+                                             "SizeMin",
+                                             "Smoothing",
+                                             "Sphere",
+                                             "Spline",
+                                             "Sprintf",
+                                             "Sqrt",
+                                             "Step",
+                                             "StopAtDistMax",
+                                             "Str",
+                                             "StrCat",
+                                             "SubdivisionAlgorithm",
+                                             "Surface",
+                                             "SurfacesList",
+                                             "Symmetry",
+                                             "Tan",
+                                             "Tanh",
+                                             "Terminal",
+                                             "Thickness",
+                                             "Threshold",
+                                             "Tolerance",
+                                             "Torus",
+                                             "Transfinite",
+                                             "Translate",
+                                             "Unique",
+                                             "Using",
+                                             "VIn",
+                                             "VOut",
+                                             "Verbosity",
+                                             "Visible",
+                                             "Volume",
+                                             "Warning",
+                                             "Wedge",
+                                             "Wire",
+                                             "XCenter",
+                                             "XMax",
+                                             "XMin",
+                                             "YCenter",
+                                             "YMax",
+                                             "YMin",
+                                             "ZCenter",
+                                             "ZMax",
+                                             "ZMin",
+                                             "newc",
+                                             "newcl",
+                                             "newf",
+                                             "newl",
+                                             "newll",
+                                             "newp",
+                                             "newreg",
+                                             "news",
+                                             "newsl",
+                                             "newv"};
+
+bool is_definition(const std::vector<Token>& tokens, std::size_t at) {
+  std::size_t next = at + 1;
+  const auto is = [&](const char* sign) { return next < tokens.size() && tokens[next].is(sign); };
+  for (const auto& [open, close] : {std::pair("(", ")"), {"[", "]"}, {"{", "}"}})
+    if (is(open)) {
+      while (next < tokens.size() && !is(close)) ++next;
+      ++next;
+    }
+  for (const char* sign : {"+", "-", "*", "/"})
+    if (is(sign)) ++next;
+  return is("=") && (next + 1 >= tokens.size() || !tokens[next + 1].is("="));
+}
+
+// Neither harmless, nor a number, nor a name that the script gives itself.
+bool has_unknown_words(const std::vector<Token>& tokens, const GeoScript& script) {
+  std::set<std::string_view> own(script.constants.begin(), script.constants.end());
+  for (std::size_t at = 0; at < tokens.size(); ++at)
+    if (tokens[at].kind == Token::word &&
+        (is_definition(tokens, at) ||
+         (at > 0 && (tokens[at - 1].is("For") || tokens[at - 1].is("Macro") ||
+                     tokens[at - 1].is("Function")))))
+      own.insert(tokens[at].text);
+  for (std::size_t at = 0; at < tokens.size(); ++at) {
+    const Token& token = tokens[at];
+    if (token.kind == Token::literal && token.text.find_first_of("\\\n") != std::string::npos)
+      return true;  // where Gmsh ends it is not known
+    if (token.kind != Token::word || std::isdigit(static_cast<unsigned char>(token.text.front())))
+      continue;
+    const bool is_member = at > 0 && tokens[at - 1].is(".");
+    if (!harmless.contains(token.text) && (is_member || !own.contains(token.text))) return true;
+  }
+  return false;
+}
 
 // The names that a definition list [a = …, b = {…}] gives values to; returns the index behind it.
 std::size_t read_definitions(const std::vector<Token>& tokens, std::size_t at, GeoScript& script) {
@@ -113,6 +355,7 @@ void read_into(GeoScript& script, const std::filesystem::path& file, const std::
     else
       read_included(script, (file.parent_path() / next.text).lexically_normal());
   }
+  script.has_unknown_words |= has_unknown_words(tokens, script);
 }
 
 }  // namespace

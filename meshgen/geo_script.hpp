@@ -16,6 +16,8 @@ struct GeoScript {
   // What it makes depends on these files alone: on no file whose name is computed, nor on time,
   // environment, chance.
   bool is_self_contained = true;
+  // Some word of theirs may read a file, or depend on time or chance, for all that is known of it.
+  bool has_unknown_words = false;
   bool has_external_process = false;  // a size field that a program computes
 };
 

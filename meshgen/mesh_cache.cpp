@@ -43,7 +43,7 @@ std::filesystem::path cached_file(const std::filesystem::path& model, const Mode
   if (format_of(model) == ModelFormat::other) return "";
   const GeoScript script = what_is_read(model);
   const std::filesystem::path folder = cache_folder();
-  if (!script.is_self_contained || folder.empty()) return "";
+  if (!script.is_self_contained || script.has_unknown_words || folder.empty()) return "";
   std::string inputs = fmt::format("{}\nGmsh {}\n{}", made_by, version_of_gmsh(), text_of(options));
   for (const std::filesystem::path& file : script.files)
     inputs += fmt::format("file {}{}\n", sha256_of_file(file), file.extension().string());

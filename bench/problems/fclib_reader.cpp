@@ -40,13 +40,21 @@ class FclibFile {
   // H5Lexists() fails unless every group on the path exists.
   bool has(const std::string& name) const {
     for (std::size_t slash = name.find('/', 1);; slash = name.find('/', slash + 1)) {
-      if (H5Lexists(file_, name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+      const std::string part = name.substr(0, slash);
+      if (H5Lexists(file_, part.c_str(), H5P_DEFAULT) <= 0) return false;
+      H5L_info_t link;
+      if (H5Lget_info(file_, part.c_str(), &link, H5P_DEFAULT) < 0 ||
+          (link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT))
+        fail(part, "is a link to another file", "values in this file");
       if (slash == name.npos) return true;
     }
   }
   std::vector<int> wholes(const std::string& name, int count) const {
-    std::vector<int> values(static_cast<std::size_t>(count));
-    read(name, H5T_INTEGER, "whole numbers", H5T_NATIVE_INT, count, values.data());
+    std::vector<int> values;
+    read(name, H5T_INTEGER, "whole numbers", count, [&](hid_t set) {
+      values.resize(static_cast<std::size_t>(count));
+      return H5Dread(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    });
     return values;
   }
   int whole(const std::string& name, int least, int most) const {
@@ -62,8 +70,11 @@ class FclibFile {
     return has(name) && values_of(name) == filled ? filled : room;
   }
   Eigen::VectorXd numbers(const std::string& name, int count) const {
-    Eigen::VectorXd values(count);
-    read(name, H5T_FLOAT, "numbers", H5T_NATIVE_DOUBLE, count, values.data());
+    Eigen::VectorXd values;
+    read(name, H5T_FLOAT, "numbers", count, [&](hid_t set) {
+      values.resize(count);
+      return H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    });
     for (int i = 0; i < count; ++i)
       if (!std::isfinite(values(i)))
         fail(name, fmt::format("[{}] is {}", i, values(i)), "finite numbers");
@@ -79,7 +90,7 @@ class FclibFile {
     constexpr std::size_t most_bytes = 1000;
     const std::size_t size = H5Tget_size(type);
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size > most_bytes ||
-        H5Sget_simple_extent_npoints(space) != 1)
+        H5Sget_simple_extent_npoints(space) != 1 || !why_not_here(set, size).empty())
       return {};
     std::string value(size, '\0');
     if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) return {};
@@ -93,8 +104,20 @@ class FclibFile {
     const Handle set(opened, H5Dclose), space(H5Dget_space(set), H5Sclose);
     return H5Sget_simple_extent_npoints(space);
   }
-  void read(const std::string& name, H5T_class_t kind, const char* what, hid_t type, int count,
-            void* values) const {
+  // Why a dataset has not all its values in this file; empty: it has. bytes: of the values.
+  static std::string why_not_here(hid_t set, std::size_t bytes) {
+    const Handle made(H5Dget_create_plist(set), H5Pclose);
+    if (H5Pget_layout(made) == H5D_VIRTUAL || H5Pget_external_count(made) > 0)
+      return "values in other files";
+    // deflate makes 1032 bytes of one at most; what is not stored at all reads as a fill value
+    constexpr std::size_t most_unpacked = 1100;
+    const std::size_t factor = H5Pget_nfilters(made) > 0 ? most_unpacked : 1;
+    return H5Dget_storage_size(set) < bytes / factor ? "values that were never written" : "";
+  }
+  // read_values: of the dataset; it allocates what it needs.
+  template <typename ReadValues>
+  void read(const std::string& name, H5T_class_t kind, const char* what, int count,
+            const ReadValues& read_values) const {
     const std::string allowed = fmt::format("{} {}", count, what);
     if (!has(name)) fail(name, "is missing", allowed);
     const hid_t opened = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
@@ -106,8 +129,9 @@ class FclibFile {
     if (H5Tget_class(stored) != kind || H5Tget_size(stored) > most_bytes)
       fail(name, "values of another kind", allowed);
     if (there != count) fail(name, fmt::format("{} values", there), allowed);
-    if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-      fail(name, "cannot be read", allowed);
+    const std::size_t bytes = static_cast<std::size_t>(count) * H5Tget_size(stored);
+    if (const std::string why = why_not_here(set, bytes); !why.empty()) fail(name, why, allowed);
+    if (read_values(set) < 0) fail(name, "cannot be read", allowed);
   }
 
   std::string path_;

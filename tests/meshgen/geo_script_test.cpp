@@ -56,6 +56,21 @@ TEST_F(GeoScriptFile, WhatDependsOnMoreIsTold) {
   EXPECT_TRUE(read("// Rand\nPrintf(\"SystemCall\");\n").is_self_contained);
 }
 
+TEST_F(GeoScriptFile, OnlyKnownWordsReadNothing) {
+  for (const char* text :
+       {"SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 2, 1.5e0};\n",
+        "h = 2; r() = {1, 2}; r[0] += h;\nFor i In {0:1}\n  Point(i) = {i, h == 2, 0, "
+        "r[i]};\nEndFor\n",
+        "Field[1] = Distance; Field[1].PointsList = {1}; Mesh.MeshSizeMax = 3;\n"})
+    EXPECT_FALSE(read(text).has_unknown_words) << text;
+  for (const char* text :
+       {"x() = ListFromFile(\"len.txt\");\n", "MergeWithBoundingBox \"a.msh\";\n",
+        "FileName = 1; Field[1].FileName = \"sizes\";\n", "Printf('a\\'); \n",
+        "Printf('/*'); ListFromFile(\"a\"); Printf('*/');\n",
+        "Printf('\"'); ListFromFile(\"a\"); Printf('\"');\n"})
+    EXPECT_TRUE(read(text).has_unknown_words) << text;
+}
+
 TEST_F(GeoScriptFile, AnyBytesAreRead) {
   for (const std::string text : {"", "\"", "/*", "//", "Include", "DefineConstant[", "Include \"",
                                  "Name", "\\x80\\xff[{(\"\\n"})

@@ -268,6 +268,39 @@ TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
   }
 }
 
+// A dataset of W/x whose values are elsewhere, or nowhere.
+TEST_F(FclibReader, ValuesThatAreNotInTheFileAreRefused) {
+  const std::string x = "/fclib_local/W/x";
+  const auto complaint_with = [&](const std::function<void(hid_t file, hid_t space)>& make) {
+    Contents contents = contents_of(small_problem(), Storage::rows);
+    const hsize_t size = contents.extract(x).mapped().numbers.size();
+    write(file(), contents);
+    {
+      const Handle opened(H5Fopen(file().c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+      const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+      make(opened, space);
+    }
+    return testing::complaint_of<FileError>([&] { read_fclib(file()); });
+  };
+  const auto made_by = [&](const std::function<void(hid_t)>& set_up) {
+    return complaint_with([&](hid_t opened, hid_t space) {
+      const Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+      set_up(how);
+      const Handle set(
+          H5Dcreate2(opened, x.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT),
+          H5Dclose);
+    });
+  };
+  const std::string place = file().string() + ": " + x + ": ";
+  EXPECT_EQ(made_by([](hid_t how) { H5Pset_external(how, "/dev/zero", 0, H5F_UNLIMITED); }),
+            place + "values in other files (allowed: 6 numbers)");
+  EXPECT_EQ(made_by([](hid_t) {}), place + "values that were never written (allowed: 6 numbers)");
+  EXPECT_EQ(complaint_with([&](hid_t opened, hid_t) {
+              H5Lcreate_external("other.hdf5", "/x", opened, x.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+            }),
+            place + "is a link to another file (allowed: values in this file)");
+}
+
 TEST_F(FclibReader, WhatIsNoHdf5IsRefused) {
   write(file(), contents_of(small_problem(), Storage::rows));
   const std::string bytes = testing::text_of(file());
