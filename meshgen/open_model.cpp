@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <unordered_map>
 
 #include "mesh/mesh.hpp"
 #include "mesh/model_format.hpp"
@@ -158,6 +159,43 @@ void set_sizes(const ModelOptions& options, double mm_per_unit) {
     gmsh::option::setNumber(bound, std::min(option(bound), longest));
 }
 
+// An equilateral triangle has √3/4 of its edge's square; the box is at least as large as the body.
+void refuse_countless_triangles(double longest_edge) {
+  constexpr double most = 2e7;
+  double area = 0;
+  for (const int surface : numbers_of(entities(2))) {
+    double x0, y0, z0, x1, y1, z1;
+    gmsh::model::getBoundingBox(2, surface, x0, y0, z0, x1, y1, z1);
+    const double dx = x1 - x0, dy = y1 - y0, dz = z1 - z0;
+    area += std::max({dx * dy, dy * dz, dz * dx});
+  }
+  if (const double triangles = area / (std::sqrt(3) / 4 * longest_edge * longest_edge);
+      triangles > most)
+    throw InputError(
+        fmt::format("--mesh-size: about {:.1g} triangles (allowed: up to {:g})", triangles, most));
+}
+
+// Transfinite curves keep their edges.
+void note_longest_edge(double asked, std::vector<std::string>& notes) {
+  std::vector<std::size_t> nodes, elements;
+  std::vector<double> xyz, parameters;
+  gmsh::model::mesh::getNodes(nodes, xyz, parameters, -1, -1, false, false);
+  std::unordered_map<std::size_t, std::size_t> row;
+  for (std::size_t k = 0; k < nodes.size(); ++k) row.emplace(nodes[k], 3 * k);
+  constexpr int triangle = 2;
+  gmsh::model::mesh::getElementsByType(triangle, elements, nodes);
+  double longest = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const std::size_t a = row.at(nodes[k]), b = row.at(nodes[k % 3 == 2 ? k - 2 : k + 1]);
+    longest = std::max(
+        longest, std::hypot(xyz[a] - xyz[b], xyz[a + 1] - xyz[b + 1], xyz[a + 2] - xyz[b + 2]));
+  }
+  constexpr double longer = 3;  // than asked for: Gmsh's edges may be half as long again
+  if (longest > longer * asked)
+    notes.push_back(fmt::format(
+        "--mesh-size: its longest edge is {:.3g} times as long as asked for", longest / asked));
+}
+
 // Fills the outline of the triangles, which may be as thin as can be.
 void fill_outline(std::vector<std::string>& notes) {
   namespace geo = gmsh::model::geo;
@@ -302,7 +340,10 @@ OpenModel::OpenModel(const std::filesystem::path& file, const ModelOptions& opti
     set_sizes(options, mm_per_unit_);
     refuse_huge();
     refuse_crossing_lines();
+    if (options.longest_edge_mm)
+      refuse_countless_triangles(*options.longest_edge_mm / mm_per_unit_);
     generate(options, about_to_mesh);
+    if (options.longest_edge_mm) note_longest_edge(*options.longest_edge_mm / mm_per_unit_, notes);
   } else if (options.size_factor || options.longest_edge_mm) {
     throw InputError(fmt::format("--mesh-size: it has a mesh already ({} --adapt refines one)",
                                  called_as("bench")));
