@@ -15,63 +15,63 @@ namespace {
 template <std::size_t n>
 using Words = std::array<std::string_view, n>;
 
-constexpr Words<24> used = {"NODE",
-                            "ELEMENT",
-                            "NSET",
-                            "ELSET",
-                            "SURFACE",
-                            "MATERIAL",
-                            "ELASTIC",
-                            "DENSITY",
-                            "SOLID SECTION",
-                            "SHELL SECTION",
-                            "MEMBRANE SECTION",
-                            "SURFACE INTERACTION",
-                            "SURFACE BEHAVIOR",
-                            "FRICTION",
-                            "CONTACT PAIR",
-                            "AMPLITUDE",
-                            "STEP",
-                            "STATIC",
-                            "END STEP",
-                            "BOUNDARY",
-                            "CLOAD",
-                            "DLOAD",
-                            "DSLOAD",
-                            "HEADING"};
+constexpr Words<24> read_keywords = {"NODE",
+                                     "ELEMENT",
+                                     "NSET",
+                                     "ELSET",
+                                     "SURFACE",
+                                     "MATERIAL",
+                                     "ELASTIC",
+                                     "DENSITY",
+                                     "SOLID SECTION",
+                                     "SHELL SECTION",
+                                     "MEMBRANE SECTION",
+                                     "SURFACE INTERACTION",
+                                     "SURFACE BEHAVIOR",
+                                     "FRICTION",
+                                     "CONTACT PAIR",
+                                     "AMPLITUDE",
+                                     "STEP",
+                                     "STATIC",
+                                     "END STEP",
+                                     "BOUNDARY",
+                                     "CLOAD",
+                                     "DLOAD",
+                                     "DSLOAD",
+                                     "HEADING"};
 // They change nothing in what is solved here.
-constexpr Words<31> without_effect = {"OUTPUT",
-                                      "NODE OUTPUT",
-                                      "ELEMENT OUTPUT",
-                                      "CONTACT OUTPUT",
-                                      "ENERGY OUTPUT",
-                                      "NODE FILE",
-                                      "EL FILE",
-                                      "ELEMENT FILE",
-                                      "NODE PRINT",
-                                      "EL PRINT",
-                                      "ELEMENT PRINT",
-                                      "ENERGY PRINT",
-                                      "CONTACT FILE",
-                                      "CONTACT PRINT",
-                                      "SECTION PRINT",
-                                      "FILE FORMAT",
-                                      "FILTER",
-                                      "TIME POINTS",
-                                      "MONITOR",
-                                      "PREPRINT",
-                                      "PRINT",
-                                      "RESTART",
-                                      "CONTROLS",
-                                      "CONTACT CONTROLS",
-                                      "SOLUTION TECHNIQUE",
-                                      "PARAMETER",
-                                      "PHYSICAL CONSTANTS",
-                                      "EXPANSION",
-                                      "CONDUCTIVITY",
-                                      "SPECIFIC HEAT",
-                                      "SECTION CONTROLS"};
-constexpr std::array<std::pair<std::string_view, std::string_view>, 26> refused = {
+constexpr Words<31> idle_keywords = {"OUTPUT",
+                                     "NODE OUTPUT",
+                                     "ELEMENT OUTPUT",
+                                     "CONTACT OUTPUT",
+                                     "ENERGY OUTPUT",
+                                     "NODE FILE",
+                                     "EL FILE",
+                                     "ELEMENT FILE",
+                                     "NODE PRINT",
+                                     "EL PRINT",
+                                     "ELEMENT PRINT",
+                                     "ENERGY PRINT",
+                                     "CONTACT FILE",
+                                     "CONTACT PRINT",
+                                     "SECTION PRINT",
+                                     "FILE FORMAT",
+                                     "FILTER",
+                                     "TIME POINTS",
+                                     "MONITOR",
+                                     "PREPRINT",
+                                     "PRINT",
+                                     "RESTART",
+                                     "CONTROLS",
+                                     "CONTACT CONTROLS",
+                                     "SOLUTION TECHNIQUE",
+                                     "PARAMETER",
+                                     "PHYSICAL CONSTANTS",
+                                     "EXPANSION",
+                                     "CONDUCTIVITY",
+                                     "SPECIFIC HEAT",
+                                     "SECTION CONTROLS"};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> refused_keywords = {
     {{"PLASTIC", "the material yields"},
      {"CYCLIC HARDENING", "the material yields"},
      {"HYPERELASTIC", "the material is not linear"},
@@ -128,17 +128,18 @@ class PropertyReader {
   void refuse_what_changes_the_answer() {
     std::map<std::string, std::string> unused;  // keywords, where first
     for (const DeckBlock& block : deck_.file.blocks) {
-      if (contains(used, block.keyword)) continue;
-      if (contains(without_effect, block.keyword)) {
+      if (contains(read_keywords, block.keyword)) continue;
+      if (contains(idle_keywords, block.keyword)) {
         unused.emplace(block.keyword, block.line.place);
         continue;
       }
       const auto known =
-          std::ranges::find(refused, block.keyword, [](const auto& r) { return r.first; });
+          std::ranges::find(refused_keywords, block.keyword, [](const auto& r) { return r.first; });
       block.line.fail(fmt::format(
           "*{}{} (allowed in a deck without --scene: linear elasticity, supports, loads, contact "
           "pairs with friction, static steps; with one its mesh alone is read)",
-          block.keyword, known == refused.end() ? "" : fmt::format(": {}", known->second)));
+          block.keyword,
+          known == refused_keywords.end() ? "" : fmt::format(": {}", known->second)));
     }
     if (unused.empty()) return;
     std::vector<std::string> all;
