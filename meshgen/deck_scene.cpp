@@ -181,8 +181,10 @@ class SceneReader {
   }
 
   std::string name_of_set(const DeckEdge& edge, const char* otherwise) const {
-    const auto names = deck_.names.find(edge);
-    return names == deck_.names.end() ? otherwise : *names->second.begin();
+    if (const auto names = deck_.names.find(edge); names != deck_.names.end())
+      for (const std::string& name : names->second)
+        if (states_.back().sets.contains(name)) return name;
+    return otherwise;
   }
 
   void label_edges() {

@@ -110,6 +110,11 @@ class StepReader {
     }
   }
 
+  void note_set(const std::string& name, const DeckBlock& block) {
+    for (const std::string& full : {deck_.full_name(name, block), name})
+      if (deck_.node_sets.contains(full)) state_.sets.insert(full);
+  }
+
   // Loads take the place of those of earlier steps, and add to those of the same.
   bool is_first_in_step(const std::string& load) { return given_.insert(load).second; }
 
@@ -134,6 +139,7 @@ class StepReader {
       if (component > 2 && value != 0)
         line.fail(fmt::format("component {} is {} (allowed: x and y, 1 and 2)", component, value));
       if (component < 1 || component > 2) continue;
+      note_set(fields[0], block);
       for (const long node : deck_.members(deck_.node_sets, fields[0], block, line)) {
         if (!deck_.nodes.contains(node)) line.fail(fmt::format("node {} does not exist", node));
         state_.held[node][static_cast<std::size_t>(component) - 1] = value;
@@ -148,6 +154,7 @@ class StepReader {
     if (component != 1 && component != 2)
       line.fail(fmt::format("component {} (allowed: 1, 2)", component));
     const double force = factor * line.number(fields[2]);
+    note_set(fields[0], block);
     for (const long node : deck_.members(deck_.node_sets, fields[0], block, line)) {
       if (!deck_.nodes.contains(node)) line.fail(fmt::format("node {} does not exist", node));
       double& value =

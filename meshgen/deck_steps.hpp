@@ -24,6 +24,7 @@ struct StepState {
   };
   std::map<std::string, Pressure> pressures;
   std::map<std::string, Eigen::Vector2d> gravity;  // mm/s² per element set
+  DeckNames sets;                                  // of nodes that are held or loaded
 };
 
 // One at least. Loads grow evenly in each step. Throws InputError: line, what is wrong.

@@ -183,10 +183,11 @@ void note_longest_edge(double asked, std::vector<std::string>& notes) {
   std::unordered_map<std::size_t, std::size_t> row;
   for (std::size_t k = 0; k < nodes.size(); ++k) row.emplace(nodes[k], 3 * k);
   constexpr int triangle = 2;
-  gmsh::model::mesh::getElementsByType(triangle, elements, nodes);
+  std::vector<std::size_t> corners;
+  gmsh::model::mesh::getElementsByType(triangle, elements, corners);
   double longest = 0;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    const std::size_t a = row.at(nodes[k]), b = row.at(nodes[k % 3 == 2 ? k - 2 : k + 1]);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const std::size_t a = row.at(corners[k]), b = row.at(corners[k % 3 == 2 ? k - 2 : k + 1]);
     longest = std::max(
         longest, std::hypot(xyz[a] - xyz[b], xyz[a + 1] - xyz[b + 1], xyz[a + 2] - xyz[b + 2]));
   }

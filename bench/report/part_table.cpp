@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -17,23 +18,41 @@ std::string number(double value) { return fmt::format("{:.5g}", value); }
 std::string place(const Json& x) {
   return fmt::format("({:.5g}, {:.5g})", x[0].get<double>(), x[1].get<double>());
 }
-std::string force(const Json& of) {
-  return fmt::format("{:.5g}, {:.5g}", of[0].get<double>(), of[1].get<double>());
-}
+// Less than the rounding of the largest force is none.
+class Forces {
+ public:
+  explicit Forces(const Json& part) {
+    for (const char* kind : {"faces", "supports"})
+      for (const Json& one : part[kind])
+        for (const Json& component : one["force_N"])
+          largest_ = std::max(largest_, std::abs(component.get<double>()));
+  }
+  std::string text(double force) const {
+    constexpr double rounding = 1e-9;
+    return number(std::abs(force) <= rounding * largest_ ? 0 : force);
+  }
+  std::string both(const Json& of) const {
+    return fmt::format("{}, {}", text(of[0].get<double>()), text(of[1].get<double>()));
+  }
+
+ private:
+  double largest_ = 0;
+};
 
 std::string within(const std::optional<double>& low, const std::optional<double>& high) {
   return low && high ? fmt::format(" in [{:.5g}, {:.5g}]", *low, *high) : "";
 }
 
-std::string faces_table(const Json& part) {
+std::string faces_table(const Json& part, const Forces& forces) {
   if (part["faces"].empty()) return "";
   Rows rows = {{"contact", "force x, y N", "F_n N", "F_t N", "peak MPa", "at mm", "closed mm",
                 "of that slips mm"}};
   for (const Json& face : part["faces"]) {
     const double closed = face["closed_mm"], length = face["length_mm"],
                  peak = face["pressure_MPa"]["value"];
-    rows.push_back({face["name"], force(face["force_N"]), number(face["normal_N"]),
-                    number(face["tangential_N"]), peak > 0 ? number(peak) : "-",
+    rows.push_back({face["name"], forces.both(face["force_N"]),
+                    forces.text(face["normal_N"].get<double>()),
+                    forces.text(face["tangential_N"].get<double>()), peak > 0 ? number(peak) : "-",
                     peak > 0 ? place(face["pressure_MPa"]["at_mm"]) : "-",
                     fmt::format("{:.4g} of {:.4g}", closed, length),
                     closed > 0 ? fmt::format("{:.4g}", face["slipping_mm"].get<double>()) : "-"});
@@ -41,11 +60,11 @@ std::string faces_table(const Json& part) {
   return aligned_table(rows, 1) + "\n";
 }
 
-std::string supports_table(const Json& part) {
+std::string supports_table(const Json& part, const Forces& forces) {
   if (part["supports"].empty()) return "";
   Rows rows = {{"support", "force x, y N", ""}};
   for (const Json& support : part["supports"])
-    rows.push_back({support["name"], force(support["force_N"]), ""});
+    rows.push_back({support["name"], forces.both(support["force_N"]), ""});
   return aligned_table(rows, 1) + "\n";
 }
 
@@ -82,6 +101,10 @@ std::string stress_lines(const Json& part) {
   return text;
 }
 
+std::string percent(const std::optional<double>& share) {
+  return share ? fmt::format("{:.2g} %", 100 * *share) : "-";
+}
+
 std::string steps_table(const Record& record) {
   if (record.steps.size() < 2) return "";
   Rows rows = {{"step", "F_n N", "F_t N", "energy N mm", "dissipation N mm", "total error", ""}};
@@ -93,8 +116,8 @@ std::string steps_table(const Record& record) {
     const Json& step = record.steps[k];
     rows.push_back({std::to_string(k + 1), cell(step, "normal_resultant_N"),
                     cell(step, "tangential_resultant_N"), cell(step, "strain_energy_Nmm"),
-                    cell(step, "dissipation_Nmm"),
-                    show_error(number_at(step, "error_discretisation")), ""});
+                    cell(step, "dissipation_Nmm"), percent(number_at(step, "error_discretisation")),
+                    ""});
   }
   return aligned_table(rows, 1) + "\n";
 }
@@ -114,7 +137,8 @@ std::string error_line(const Record& r) {
 std::string part_table(const Record& record, const Json& part) {
   std::string text;
   if (!part.is_null()) {
-    text += faces_table(part) + supports_table(part);
+    const Forces forces(part);
+    text += faces_table(part, forces) + supports_table(part, forces);
     if (!part["faces"].empty()) text += contact_lines(record);
     text += stress_lines(part);
   }
@@ -122,10 +146,10 @@ std::string part_table(const Record& record, const Json& part) {
   if (record.strain_energy_Nmm)
     text += fmt::format("strain energy {:.5g} N mm\n", *record.strain_energy_Nmm);
   text += error_line(record);
-  const std::string why =
-      record.status_reason.empty() ? "" : fmt::format(": {}", record.status_reason);
-  if (record.status != Status::ok || !why.empty())
-    text += fmt::format("{}{}\n", name_of(record.status), why);
+  if (record.status != Status::ok)
+    text += fmt::format("{}: {}\n", name_of(record.status), record.status_reason);
+  else if (!record.status_reason.empty())
+    text += fmt::format("note: {}\n", record.status_reason);
   return text;
 }
 

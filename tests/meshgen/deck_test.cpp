@@ -106,9 +106,10 @@ TEST_F(Decks, IncludedFilesStandInTheirPlace) {
 
 // Two strips of one part, the upper one moved by its instance.
 TEST_F(Decks, InstancesOfAPartAreBodies) {
-  const Mesh mesh = convert_model(testing::test_data("decks/two_instances.inp"),
-                                  model_options_of({"held=displacement"}, {}, ""))
-                        .mesh;
+  const Mesh mesh =
+      convert_model(testing::test_data("decks/two_instances.inp"),
+                    model_options_of({"held=displacement", "m=contact:m", "s=contact:s"}, {}, ""))
+          .mesh;
   EXPECT_EQ(mesh.body_names, Texts({"lower.all", "upper.all"}));
   EXPECT_EQ(mesh.vertices.size(), 24U);
   EXPECT_EQ(mesh.vertices.back(), Eigen::Vector2d(10, 4));
@@ -176,7 +177,7 @@ TEST_F(Decks, WhatWouldBeAnotherProblemIsRefused) {
            {"*STEP\n", "*TIE, NAME=t\nSsole, Sother\n*STEP\n", "*TIE: bonded faces"},
            {"*STEP\n", "*STEP, NLGEOM\n", "*STEP, NLGEOM"},
            {"*STEP\n", "*SPRNG\n1\n*STEP\n", "*SPRNG ("},
-           {held, held + "1, 2\n", "node 1 at (0, 0): y is held in this node alone"},
+           {held, held + "2, 2\n", "node 2 at (5, 0): y is held in this node alone"},
            {held, "Nhead, 1\n", "x alone is held"},
            {held, held + "Nleft, 1\n", "x alone is held"},
            {held, held + "Nhead, 3, 3, 0.1\n", "component 3 is 0.1"},
