@@ -44,7 +44,17 @@ class PartReader {
     answer.faces = faces();
     answer.supports = supports();
     if (w) answer.displacement_mm = largest_displacement(with_rigid_motion(problem_, *w));
-    answer.stress = largest_stress();
+    answer.stress = largest_stress(stress_);
+    answer.stress.unbounded =
+        singular_place_near(answer.stress.von_mises_MPa.at_mm, answer.stress.triangle);
+    if (w) {
+      const LargestStress other = largest_stress(stress_of_displacement(problem_, *w));
+      const auto off = [](const ValueAt& a, const ValueAt& b) {
+        return 2 * std::abs(a.value - b.value);
+      };
+      answer.stress.von_mises_off_MPa = off(answer.stress.von_mises_MPa, other.von_mises_MPa);
+      answer.stress.principal_off_MPa = off(answer.stress.principal_MPa, other.principal_MPa);
+    }
     return answer;
   }
 
@@ -207,37 +217,37 @@ class PartReader {
     }
   };
 
-  LargestStress largest_stress() const {
+  LargestStress largest_stress(const StressField& stress) const {
     LargestStress largest;
-    const Lattice lattice(degree_);
-    int where = 0;
+    const int degree = stress.degree();
+    const Lattice lattice(degree);
     const auto consider = [&](int t, const Eigen::Vector3d& s, const Eigen::Vector2d& x) {
       const double poisson =
           problem_.poisson_zz.empty() ? 0 : problem_.poisson_zz[mesh_.triangle_body[t]];
       if (const double value = von_mises(s, poisson); value > largest.von_mises_MPa.value) {
         largest.von_mises_MPa = {value, x};
-        where = t;
+        largest.triangle = t;
       }
       for (const double value : principal_stresses(s))
         if (std::abs(value) > std::abs(largest.principal_MPa.value))
           largest.principal_MPa = {value, x};
     };
-    const Eigen::Index third = bernstein_count(degree_);
-    for (int t = 0; t < static_cast<int>(stress_.size()); ++t) {
+    const Eigen::Index third = bernstein_count(degree);
+    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
       const TriangleVertices v = problem_.vertices_of(t);
       const Eigen::Vector2d centroid = v.rowwise().mean();
-      const auto curves = problem_.curves_of(t, degree_);
+      const auto curves = problem_.curves_of(t, degree);
       for (int k = 0; k < 3; ++k) {
         const Eigen::Matrix3Xd own =
-            stress_[static_cast<std::size_t>(t)].middleCols(k * third, third);
+            stress[static_cast<std::size_t>(t)].middleCols(k * third, third);
         if (curves && !(*curves)[static_cast<std::size_t>(k)].is_straight()) {
-          const CurvedSide<double> side((*curves)[static_cast<std::size_t>(k)], degree_);
+          const CurvedSide<double> side((*curves)[static_cast<std::size_t>(k)], degree);
           for (int q = 0; q < CurvedSide<double>::points; ++q)
             for (const double rho : {1., 0.5})
               consider(t, own * side.bernstein(centroid, q, rho),
                        centroid + rho * (side.at(q) - centroid));
           consider(t, own.col(0), v.col(k));
-          consider(t, own.col(degree_), v.col((k + 1) % 3));
+          consider(t, own.col(degree), v.col((k + 1) % 3));
           continue;
         }
         const Eigen::Matrix3Xd at_lattice = own * lattice.values;
@@ -247,7 +257,6 @@ class PartReader {
           consider(t, at_lattice.col(static_cast<Eigen::Index>(i)), corners * lattice.weights[i]);
       }
     }
-    largest.unbounded = singular_place_near(largest.von_mises_MPa.at_mm, where);
     return largest;
   }
 
@@ -372,6 +381,10 @@ Json to_json(const PartAnswer& answer) {
   if (answer.displacement_mm) json["displacement_mm"] = to_json(*answer.displacement_mm);
   json["von_mises_MPa"] = to_json(answer.stress.von_mises_MPa);
   json["principal_MPa"] = to_json(answer.stress.principal_MPa);
+  if (answer.stress.von_mises_off_MPa) {
+    json["von_mises_MPa"]["off"] = *answer.stress.von_mises_off_MPa;
+    json["principal_MPa"]["off"] = *answer.stress.principal_off_MPa;
+  }
   if (const auto& place = answer.stress.unbounded)
     json["unbounded"] = {{"what", place->what}, {"at_mm", point(place->at_mm)}};
   return json;

@@ -39,8 +39,12 @@ struct SingularPlace {
 };
 
 struct LargestStress {
+  int triangle = 0;                        // of the largest von Mises stress
   ValueAt von_mises_MPa, principal_MPa;    // principal: the largest by magnitude, with its sign
   std::optional<SingularPlace> unbounded;  // where the largest is found next to such a place
+  // Twice what the largest stress of the displacements differs by: an estimate of what these are
+  // off by.
+  std::optional<double> von_mises_off_MPa, principal_off_MPa;
 };
 
 struct PartAnswer {

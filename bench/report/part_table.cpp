@@ -96,8 +96,10 @@ std::string stress_lines(const Json& part) {
                               part["unbounded"]["what"].get<std::string>());
   for (const auto& [name, key] :
        {std::pair("von Mises", "von_mises_MPa"), {"principal", "principal_MPa"}})
-    text += fmt::format("largest {} stress {:.5g} MPa at {}\n", name,
-                        part[key]["value"].get<double>(), place(part[key]["at_mm"]));
+    text += fmt::format(
+        "largest {} stress {:.5g}{} MPa at {}\n", name, part[key]["value"].get<double>(),
+        part[key].contains("off") ? fmt::format(" ± {:.2g}", part[key]["off"].get<double>()) : "",
+        place(part[key]["at_mm"]));
   return text;
 }
 
