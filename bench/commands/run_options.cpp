@@ -19,6 +19,7 @@ namespace {
 
 constexpr const char* run_footer = R"(
 Other commands (each has --help)
+  {bench} solve MODEL      forces, pressure, stress and displacement of a part
   {bench} advise           which mesh and which method give the error that you choose
   {bench} claims DIR       the paper's sentences, checked against a results folder
   {bench} compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "assembly/problem/scene.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/commands.hpp"
 #include "bench/commands/run_parts.hpp"
 #include "bench/measure/environment.hpp"
+#include "bench/plan/scene_file.hpp"
 #include "bench/records/case_name.hpp"
 #include "bench/records/json_value.hpp"
 #include "bench/records/summary.hpp"

@@ -298,7 +298,7 @@ TEST(Command, PrintedCommandsBeginWithWhatTheUserStarted) {
   const BenchCommand bench;
   const std::string typed = testing::bench_executable().string();
   for (const char* command : {"", "advise ", "claims ", "compare ", "export ", "export-problem ",
-                              "merge ", "replay ", "track "}) {
+                              "merge ", "replay ", "solve ", "track "}) {
     const std::string asked = std::string(command) + "--help";
     for (const auto& [before, called] :
          {std::pair("", typed),

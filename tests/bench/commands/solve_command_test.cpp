@@ -1,0 +1,94 @@
+// `bench solve` from outside: decks as they are, quantities with an error, and what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/bench_command.hpp"
+#include "tests/support/places.hpp"
+
+namespace airybench::solve_command_test {
+namespace {
+
+class SolveCommand : public ::testing::Test {
+ protected:
+  // The answer of the only case.
+  Json solved(const std::string& arguments, int code = 0) const {
+    result_ = bench_.run("solve " + arguments + " --out=o");
+    EXPECT_EQ(result_.code, code) << result_.err;
+    for (const auto& entry : std::filesystem::directory_iterator(bench_.path("o/fields")))
+      if (entry.path().string().ends_with(".answer.json"))
+        return parse_json(testing::text_of(entry.path()));
+    return {};
+  }
+  static std::string deck(const std::string& name) {
+    return testing::test_data("decks/" + name + ".inp").string();
+  }
+  bool says(const std::string& text) const { return result_.out.find(text) != std::string::npos; }
+  const testing::BenchCommand bench_;
+  mutable testing::CommandResult result_;
+};
+
+// Plane stress of aluminium, 100 MPa on 4 mm.
+TEST_F(SolveCommand, APlateUnderTensionHasItsStressAndDisplacement) {
+  const Json answer = solved(deck("plate_tension"));
+  EXPECT_NEAR(answer["von_mises_MPa"]["value"].get<double>(), 100, 1e-6);
+  EXPECT_NEAR(answer["displacement_mm"]["value"].get<double>(),
+              100 / 70000. * std::hypot(10, 0.33 * 4), 1e-9);
+  EXPECT_EQ(answer["displacement_mm"]["at_mm"].dump(), "[10.0,4.0]");
+  ASSERT_EQ(answer["supports"].size(), 2u);
+  EXPECT_NEAR(answer["supports"][1]["force_N"][0].get<double>(), -400, 1e-6);
+  EXPECT_FALSE(answer.contains("unbounded"));
+  EXPECT_TRUE(says("plane stress, forces for a thickness of 1 mm; Eall: E 70000 MPa, ν 0.33"));
+  EXPECT_TRUE(says("largest von Mises stress 100 "));
+  EXPECT_NE(result_.err.find("thickness 2.5: forces are those of a thickness of 1 mm"),
+            std::string::npos);
+}
+
+// Of twice the beam's length the deflection at the end is near to P L³/3 E'I + P L/(κ G A).
+TEST_F(SolveCommand, ACantileverBendsAsABeam) {
+  const Json answer = solved(deck("cantilever") + " --error=0.5%");
+  const double E = 210000 / (1 - 0.09), G = 210000 / 2.6, I = 4 * 4 * 4 / 12.;
+  const double beam = 10 * 8000 / (3 * E * I) + 10 * 20 / (5 / 6. * G * 4);
+  EXPECT_NEAR(answer["displacement_mm"]["value"].get<double>(), beam, 0.03 * beam);
+  EXPECT_NEAR(answer["supports"][0]["force_N"][1].get<double>(), 10, 1e-6);
+  EXPECT_EQ(answer["unbounded"]["what"], "the end of displacement:Nfix");
+  EXPECT_TRUE(says("largest stress: unbounded at (0, "));
+}
+
+TEST_F(SolveCommand, ADeckWithPairsAndStepsIsAPath) {
+  const Json answer = solved(deck("block_on_base") + " --error=3%");
+  ASSERT_EQ(answer["faces"].size(), 1u);
+  const Json& face = answer["faces"][0];
+  EXPECT_EQ(face["name"], "contact:Smaster on contact:Sslave");
+  EXPECT_LT(face["normal_N"].get<double>(), -400);
+  EXPECT_NEAR(face["length_mm"].get<double>(), 6, 1e-9);
+  EXPECT_LE(std::abs(face["tangential_N"].get<double>()),
+            0.3 * std::abs(face["normal_N"].get<double>()));
+  for (const char* line : {"\n1 ", "\n2 ", "dissipation N mm"}) EXPECT_TRUE(says(line)) << line;
+}
+
+TEST_F(SolveCommand, InstancesPressOnEachOther) {
+  const Json answer = solved(deck("two_instances") + " --error=1%:force");
+  const double force = answer["faces"][0]["normal_N"];
+  EXPECT_NEAR(force, -270.3, 1);
+  const Json r = bench_.records().front();
+  EXPECT_LE(r["normal_resultant_high_N"].get<double>() - r["normal_resultant_low_N"].get<double>(),
+            0.02 * std::abs(force));
+}
+
+TEST_F(SolveCommand, WhatCannotBeSolvedIsSaid) {
+  bench_.expect_refusal("solve " + deck("plate_tension") + " --error=1%:weight --out=o",
+                        "--error: 1%:weight (allowed: above 0% and below 100%, as 1%, 1%:force, "
+                        "1%:pressure)\n");
+  const testing::CommandResult twice =
+      bench_.run("solve " + deck("block_on_base") + " --steps=3 --out=o");
+  EXPECT_EQ(twice.code, 2);
+  EXPECT_NE(twice.err.find("block_on_base.inp: load_steps and --steps (allowed: one of them)\n"),
+            std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(bench_.path("o")));
+  solved(deck("plate_tension") + " --error=1%:force", 1);
+  EXPECT_TRUE(says("this quantity has no interval"));
+}
+
+}  // namespace
+}  // namespace airybench::solve_command_test
