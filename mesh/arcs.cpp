@@ -13,11 +13,19 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-// Consecutive straight edges of one group, from vertex to vertex; closed if the last is the first.
+bool may_be_arc(const EdgeCurve& curve) { return curve.is_straight() || curve.degree() == 2; }
+
+// Consecutive edges of one group, all straight or all parabolas, from vertex to vertex; closed if
+// the last is the first.
 class Chords {
  public:
   Chords(Mesh& mesh, std::vector<int> rows, double mm_per_unit)
-      : mesh_(mesh), rows_(std::move(rows)), tolerance_mm_(tolerance(mm_per_unit)) {}
+      : mesh_(mesh),
+        rows_(std::move(rows)),
+        are_parabolas_(!mesh.boundary[rows_.front()].curve.is_straight()),
+        fewest_edges_(are_parabolas_ ? 2 : 4),
+        largest_turn_((are_parabolas_ ? std::numbers::pi / 4 : std::numbers::pi / 6) * 1.03),
+        tolerance_mm_(tolerance(mm_per_unit)) {}
 
   int recognise() {
     // A closed side may start within an arc; then it is walked from the end of one.
@@ -34,9 +42,6 @@ class Chords {
   }
 
  private:
-  static constexpr int fewest_edges = 4;
-  static constexpr double largest_turn = std::numbers::pi / 6 * 1.03;  // of an edge
-
   int edges() const { return static_cast<int>(rows_.size()); }
   const Point& x(int k) const {
     const bool is_last = k == edges();
@@ -57,10 +62,13 @@ class Chords {
     const auto circle = circle_through(x(first), x(first + third), x(first + 2 * third));
     if (!circle) return {};
     const double sense = cross_area(x(first), x(first + third), x(first + 2 * third)) > 0 ? 1 : -1;
-    const double longest = 2 * circle->radius_mm * std::sin(largest_turn / 2);
+    const double longest = 2 * circle->radius_mm * std::sin(largest_turn_ / 2);
     for (int k = first; k < last; ++k) {
       const Point &from = x(k), &to = x(k + 1);
-      if (std::abs((to - circle->centre_mm).norm() - circle->radius_mm) > tolerance_mm_ ||
+      const auto is_off = [&](const Point& p) {
+        return std::abs((p - circle->centre_mm).norm() - circle->radius_mm) > tolerance_mm_;
+      };
+      if (is_off(to) || (are_parabolas_ && is_off(mesh_.boundary[rows_[k]].curve.points_mm[1])) ||
           (to - from).norm() > longest || sense * cross_area(circle->centre_mm, from, to) <= 0)
         return {};
     }
@@ -70,12 +78,12 @@ class Chords {
   }
   // From and to a vertex; none: both are the end.
   std::pair<int, int> next_arc(int from) const {
-    for (int first = from; first + fewest_edges <= edges(); ++first)
-      if (circle_of(first, first + fewest_edges)) return {first, end_of_arc(first)};
+    for (int first = from; first + fewest_edges_ <= edges(); ++first)
+      if (circle_of(first, first + fewest_edges_)) return {first, end_of_arc(first)};
     return {edges(), edges()};
   }
   int end_of_arc(int first) const {
-    int known = first + fewest_edges, step = fewest_edges;
+    int known = first + fewest_edges_, step = fewest_edges_;
     for (; known + step <= edges() && circle_of(first, known + step); step *= 2) known += step;
     for (; step > 0; step /= 2)
       if (known + step <= edges() && circle_of(first, known + step)) known += step;
@@ -102,6 +110,9 @@ class Chords {
 
   Mesh& mesh_;
   std::vector<int> rows_;
+  bool are_parabolas_;
+  int fewest_edges_;
+  double largest_turn_;  // of an edge
   double tolerance_mm_;
 };
 
@@ -114,8 +125,8 @@ int recognise_arcs(Mesh& mesh, double mm_per_unit) {
     for (std::vector<int>& chain : boundary_chains(mesh, role)) {
       const auto differ = [&](int a, int b) {
         const BoundaryEdge &before = mesh.boundary[a], &after = mesh.boundary[b];
-        return before.group != after.group || !before.curve.is_straight() ||
-               !after.curve.is_straight();
+        return before.group != after.group || !may_be_arc(before.curve) ||
+               before.curve.degree() != after.curve.degree();
       };
       if (mesh.boundary[chain.front()].vertices[0] == mesh.boundary[chain.back()].vertices[1])
         if (const auto at = std::ranges::adjacent_find(chain, differ); at != chain.end())
@@ -123,7 +134,7 @@ int recognise_arcs(Mesh& mesh, double mm_per_unit) {
       for (auto first = chain.begin(); first != chain.end();) {
         const auto at = std::adjacent_find(first, chain.end(), differ);
         const auto last = at == chain.end() ? at : at + 1;
-        if (mesh.boundary[*first].curve.is_straight())
+        if (may_be_arc(mesh.boundary[*first].curve))
           found += Chords(mesh, {first, last}, mm_per_unit).recognise();
         first = last;
       }

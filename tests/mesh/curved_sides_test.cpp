@@ -145,6 +145,30 @@ TEST(Arcs, AreNoCornersNoEllipsesAndNoCoarsePolygons) {
   EXPECT_TRUE(none(bent));
 }
 
+// A ring of parabolas whose middles are moved outwards from the circle by this part.
+Mesh of_parabolas(int around, double off) {
+  Mesh mesh = small_ring(around, 2, 1, 3);
+  for (BoundaryEdge& edge : mesh.boundary) {
+    const Point &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
+    const Point middle = (1 + off) * a.norm() * (a + b).normalized();
+    edge.curve = EdgeCurve{{a, middle, b}};
+  }
+  return mesh;
+}
+
+TEST(Arcs, AreFoundOnSidesOfQuadraticElements) {
+  for (const int around : {8, 24}) {
+    Mesh mesh = of_parabolas(around, 0);
+    EXPECT_GT(off_circles(mesh, 1, 3), 1e-5);
+    EXPECT_EQ(recognise_arcs(mesh), 2 * around);
+    EXPECT_LT(off_circles(mesh, 1, 3), around > 8 ? 1e-11 : 3e-9);
+    Mesh flatter = of_parabolas(around, 1e-6);
+    EXPECT_EQ(recognise_arcs(flatter), 0);
+  }
+  Mesh coarse = of_parabolas(7, 0);
+  EXPECT_EQ(recognise_arcs(coarse), 0);
+}
+
 // Groups meet within the circle; arcs of fewer than four edges stay chords.
 TEST(Arcs, AreOfOneGroup) {
   Mesh mesh = small_ring(24, 2, 1, 3);

@@ -11,6 +11,10 @@ namespace {
 
 class SolveCommand : public ::testing::Test {
  protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(testing::meshgen_executable()))
+      GTEST_SKIP() << "meshgen is not built here";
+  }
   // The answer of the only case.
   Json solved(const std::string& arguments, int code = 0) const {
     result_ = bench_.run("solve " + arguments + " --out=o");
