@@ -71,6 +71,53 @@ TEST_F(SolveCommand, ADeckWithPairsAndStepsIsAPath) {
   for (const char* line : {"\n1 ", "\n2 ", "dissipation N mm"}) EXPECT_TRUE(says(line)) << line;
 }
 
+// Two tubes of one material, 5 µm too large for each other (Lamé); sides of quadratic elements.
+TEST_F(SolveCommand, APressFitHasItsPressure) {
+  const Json answer = solved(deck("press_fit") + " --error=0.1%");
+  const double stiff = 210000 / (1 - 0.09), a = 36, b = 100.025, c = 324;
+  const double expected = stiff * 0.005 / (2 * b * 10) * (b - a) * (c - b) / (c - a);
+  const Json& face = answer["faces"][0];
+  EXPECT_NEAR(-face["normal_N"].get<double>(), expected * face["length_mm"].get<double>(),
+              0.003 * 451);
+  EXPECT_NEAR(face["pressure_MPa"]["value"].get<double>(), expected, 0.02 * expected);
+  EXPECT_NEAR(face["closed_mm"].get<double>(), 10 * std::acos(-1) / 2, 0.01);
+}
+
+TEST_F(SolveCommand, AWallStandsByItsWeightWhoseMeshIsInAnotherFile) {
+  const Json answer = solved(deck("wall"));
+  const double weight = 2.4e-9 * 9810 * 100 * 200;
+  EXPECT_NEAR(answer["supports"][0]["force_N"][1].get<double>(), weight, 1e-8 * weight);
+  EXPECT_NEAR(answer["displacement_mm"]["value"].get<double>(), 1.5e-5, 0.02e-5);  // CalculiX 2.20
+}
+
+TEST_F(SolveCommand, ThreeStripsPassOnTheForce) {
+  const Json answer = solved(deck("stack"));
+  ASSERT_EQ(answer["faces"].size(), 2u);
+  for (const Json& face : answer["faces"])
+    EXPECT_NEAR(face["force_N"][1].get<double>(),
+                -answer["supports"][1]["force_N"][1].get<double>(), 1e-6);
+}
+
+// The hole of radius 1 in a plate of width 16 raises 100 MPa to about 3.03 times as much.
+TEST_F(SolveCommand, APlateWithAHoleHasItsStressThere) {
+  const Json answer = solved(deck("plate_hole") + " --error=0.05%");
+  const double largest = answer["von_mises_MPa"]["value"];
+  EXPECT_GT(largest, 300);
+  EXPECT_LT(largest, 310);
+  EXPECT_LT(answer["von_mises_MPa"]["off"].get<double>(), 10);
+  EXPECT_NEAR(answer["von_mises_MPa"]["at_mm"][1].get<double>(), 1, 0.01);
+}
+
+TEST_F(SolveCommand, DecksOfOtherProblemsAreRefused) {
+  for (const auto& [name, why] :
+       {std::pair("axisymmetric", "elements of type CAX4: an axisymmetric"),
+        {"plastic", "*PLASTIC: the material yields"},
+        {"tied", "*TIE: bonded faces"},
+        {"large", "*STEP, NLGEOM"}})
+    bench_.expect_refusal("solve " + deck(name) + " --out=o", why);
+  EXPECT_FALSE(std::filesystem::exists(bench_.path("o")));
+}
+
 TEST_F(SolveCommand, InstancesPressOnEachOther) {
   const Json answer = solved(deck("two_instances") + " --error=1%:force");
   const double force = answer["faces"][0]["normal_N"];
