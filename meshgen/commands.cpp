@@ -37,26 +37,28 @@ void print_summary(const std::filesystem::path& file, const Mesh& mesh) {
       quality.smallest_angle_deg, quality.min_mean_ratio, quality.mean_mean_ratio);
 }
 
-Mesh converted_or_cached(const std::filesystem::path& model, const ModelOptions& options,
-                         const AboutToMesh& about_to_mesh) {
-  const std::filesystem::path file = cached_file(model, options);
-  std::optional<ConvertedModel> kept;
-  if (!file.empty()) kept = cached_model(file);
-  if (!kept) {
-    const LastWords last_words(model.string());
-    kept = convert_model(model, options, about_to_mesh);
-    if (!file.empty())
-      if (const auto why_not = keep_model(file, *kept))
-        fmt::print(stderr, "note: the mesh is not kept for next time: {}\n", *why_not);
-  }
-  for (const std::string& note : kept->notes)
-    fmt::print(stderr, "note: {}: {}\n", model.string(), note);
-  return std::move(kept->mesh);
+void print_notes(const std::filesystem::path& model, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "note: {}: {}\n", model.string(), note);
 }
 
 std::string last_line_of(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   return text.substr(text.rfind('\n') + 1);
+}
+
+constexpr const char* curves = "curves.json";
+
+void draw_curves(const std::filesystem::path& curves_json, const std::filesystem::path& out) {
+  constexpr double time_limit_s = 300;
+  const std::filesystem::path drawing = data_folder("plots") / "curves.py";
+  const ProgramEnd end = run_program("/usr/bin/env",
+                                     {"PATH=/usr/bin:/bin:/usr/local/bin", "python3",
+                                      drawing.string(), curves_json.string(), out.string()},
+                                     time_limit_s);
+  if (end.exit_code != 0)
+    throw FileError(fmt::format("{}: no picture (Debian: python3-matplotlib, python3-pandas): {}",
+                                out.string(), last_line_of(end.err)));
+  fmt::print("picture: {}\n", out.string());
 }
 
 }  // namespace
@@ -132,53 +134,54 @@ int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
 
 int convert_command(const std::filesystem::path& model, const ModelOptions& options,
                     const std::filesystem::path& out) {
-  const auto convert = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh) {
-    const Mesh mesh = converted_or_cached(model, used, about_to_mesh);
-    if (out == "-") {
-      fmt::print("{}", msh_text(mesh));
-      return 0;
-    }
-    write_file_atomically(out, msh_text(mesh));
-    print_summary(out, mesh);
+  const std::filesystem::path file = cached_file(model, options);
+  std::optional<ConvertedModel> converted;
+  if (!file.empty()) converted = cached_model(file);
+  if (!converted) {
+    constexpr const char* made = "made.msh";
+    const auto convert = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh,
+                             const std::filesystem::path& folder) {
+      const LastWords last_words(model.string());
+      if (const auto why_not = keep_model(folder / made, convert_model(model, used, about_to_mesh)))
+        throw FileError(*why_not);
+    };
+    const auto take = [&](const std::filesystem::path& folder) {
+      converted = cached_model(folder / made);
+      if (!converted) throw FileError(model.string() + ": the mesh that was made cannot be read");
+      if (file.empty()) return;
+      if (const auto why_not = keep_model(file, *converted))
+        fmt::print(stderr, "note: the mesh is not kept for next time: {}\n", *why_not);
+    };
+    if (const int code = in_a_child(model, options, convert, take); code != 0) return code;
+  }
+  print_notes(model, converted->notes);
+  if (out == "-") {
+    fmt::print("{}", msh_text(converted->mesh));
     return 0;
-  };
-  return in_a_child(model, options, convert);
+  }
+  write_file_atomically(out, msh_text(converted->mesh));
+  print_summary(out, converted->mesh);
+  return 0;
 }
 
 int show_command(const std::filesystem::path& model, const ModelOptions& options,
                  const std::filesystem::path& out) {
-  const TemporaryFolder work;
-  const std::filesystem::path curves = work.path() / "curves.json";
-  const auto show = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh) {
+  const auto show = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh,
+                        const std::filesystem::path& folder) {
     const LastWords last_words(model.string());
     std::vector<std::string> notes;
     ModelOptions all_shown = used;
     all_shown.roles.emplace("rest", "force");  // the table tells which are free
     const PlaneModel plane = read_model(model, all_shown, about_to_mesh, notes);
-    for (const std::string& note : notes)
-      fmt::print(stderr, "note: {}: {}\n", model.string(), note);
+    print_notes(model, notes);
     const std::string json = json_of(plane, model_name(model));
-    if (out == "-") {
-      fmt::print("{}\n", json);
-      return 0;
-    }
-    fmt::print("{}\n", table_of(plane));
-    write_file_atomically(curves, json);
-    return 0;
+    fmt::print("{}\n", out == "-" ? json : table_of(plane));
+    write_file_atomically(folder / curves, json);
   };
-  const int code = in_a_child(model, options, show);
-  if (code != 0 || out == "-") return code;
-  constexpr double time_limit_s = 300;
-  const std::filesystem::path drawing = data_folder("plots") / "curves.py";
-  const ProgramEnd end = run_program("/usr/bin/env",
-                                     {"PATH=/usr/bin:/bin:/usr/local/bin", "python3",
-                                      drawing.string(), curves.string(), out.string()},
-                                     time_limit_s);
-  if (end.exit_code != 0)
-    throw FileError(fmt::format("{}: no picture (Debian: python3-matplotlib, python3-pandas): {}",
-                                out.string(), last_line_of(end.err)));
-  fmt::print("picture: {}\n", out.string());
-  return 0;
+  const auto draw = [&](const std::filesystem::path& folder) {
+    if (out != "-") draw_curves(folder / curves, out);
+  };
+  return in_a_child(model, options, show, draw);
 }
 
 int scene_command(const std::filesystem::path& deck) {
@@ -187,8 +190,7 @@ int scene_command(const std::filesystem::path& deck) {
   try {
     const std::optional<DeckScene> scene = scene_of(read_deck_of(deck));
     if (!scene) return 0;
-    for (const std::string& note : scene->notes)
-      fmt::print(stderr, "note: {}: {}\n", deck.string(), note);
+    print_notes(deck, scene->notes);
     fmt::print("{}", scene->json);
   } catch (const FileError&) {
     throw;

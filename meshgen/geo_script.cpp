@@ -347,6 +347,9 @@ void read_into(GeoScript& script, const std::filesystem::path& file, const std::
     if (token.is("ExternalProcess")) script.has_external_process = true;
     if (token.is("Name") && next.kind == Token::literal) script.onelab_names.insert(next.text);
     if (token.is("DefineConstant") && next.is("[")) read_definitions(tokens, at + 1, script);
+    if (token.is("Printf") || token.is("Error") || token.is("Warning"))
+      for (std::size_t k = at; k < tokens.size() && !tokens[k].is(";"); ++k)
+        script.may_write |= tokens[k].is(">");
     if (!is_one_of(token, readers)) continue;
     const bool is_literal =
         next.kind == Token::literal && at + 2 < tokens.size() && tokens[at + 2].is(";");

@@ -8,8 +8,10 @@
 #include <optional>
 
 #include "meshgen/complaints.hpp"
+#include "meshgen/confinement.hpp"
+#include "meshgen/geo_script.hpp"
 #include "meshgen/gmsh_mesher.hpp"
-#include "meshgen/no_programs.hpp"
+#include "support/errors.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/this_process.hpp"
@@ -23,15 +25,31 @@ struct Attempt {
   bool is_crash() const { return end.signal != 0 && end.signal != SIGKILL; }
 };
 
-Attempt attempt(const std::function<int(const AboutToMesh&)>& work) {
-  const TemporaryFolder scratch;  // what a crash leaves is removed with it
+void refuse_if_it_needs_confinement(const std::filesystem::path& model) {
+  const GeoScript script = what_is_read(model);
+  if (script.has_unknown_words || script.may_write)
+    throw FileError(
+        model.string() +
+        ": this kernel (or container) cannot keep it from writing files and starting "
+        "programs, and it has words that may (allowed: a model without them; Linux with "
+        "Landlock and seccomp)");
+}
+
+// scratch: what a crash leaves is removed with it.
+Attempt attempt(const std::filesystem::path& model, const std::filesystem::path& scratch,
+                const std::function<void(const AboutToMesh&)>& work) {
   ChildProcess child([&](Channel& channel) {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
       std::signal(signal, SIG_DFL);  // sanitizers catch some, and exit
-    setenv("TMPDIR", scratch.path().c_str(), 1);
-    start_no_programs();
+    setenv("TMPDIR", scratch.c_str(), 1);
     const auto begin = [&](int algorithm) { channel.send(std::to_string(algorithm)); };
-    _exit(checked_exit_code(complained([&] { return work(begin); }), "meshgen"));
+    const auto confined = [&] {
+      const bool writes_here = write_only_in(scratch), starts_none = start_no_programs();
+      if (!writes_here || !starts_none) refuse_if_it_needs_confinement(model);
+      work(begin);
+      return 0;
+    };
+    _exit(checked_exit_code(complained(confined), "meshgen"));
   });
   Attempt made;
   while (const std::optional<std::string> line = child.ask("")) made.algorithm = line;
@@ -42,11 +60,19 @@ Attempt attempt(const std::function<int(const AboutToMesh&)>& work) {
 }  // namespace
 
 int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
-               const std::function<int(const ModelOptions&, const AboutToMesh&)>& work) {
-  const Attempt first = attempt([&](const AboutToMesh& begin) { return work(options, begin); });
+               const std::function<void(const ModelOptions&, const AboutToMesh&,
+                                        const std::filesystem::path& folder)>& work,
+               const InFolder& take) {
+  const TemporaryFolder scratch;
+  const Attempt first = attempt(model, scratch.path(), [&](const AboutToMesh& begin) {
+    work(options, begin, scratch.path());
+  });
   if (first.end.exit_code == no_memory_exit_code)
     return complain(model.string() + ": out of memory", exit_failure);
-  if (first.end.signal == 0) return first.end.exit_code;
+  if (first.end.signal == 0) {
+    if (first.end.exit_code == 0) take(scratch.path());
+    return first.end.exit_code;
+  }
   const std::string cause =
       fmt::format("{}: Gmsh {} {} while it {} ({})", model.string(), version_of_gmsh(),
                   first.is_crash() ? "crashed" : "was ended",
@@ -55,11 +81,14 @@ int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
   if (!first.is_crash()) return complain(cause, exit_failure);
   ModelOptions with_6 = options;
   with_6.algorithm = 6;
-  const Attempt second = attempt([&](const AboutToMesh& begin) { return work(with_6, begin); });
+  const TemporaryFolder other;
+  const Attempt second = attempt(
+      model, other.path(), [&](const AboutToMesh& begin) { work(with_6, begin, other.path()); });
   if (second.end.signal != 0)
     return complain(cause + (first.algorithm && first.algorithm != "6" ? ", and with 6" : ""),
                     exit_failure);
   fmt::print(stderr, "note: {}: meshed with 6\n", cause);
+  if (second.end.exit_code == 0) take(other.path());
   return second.end.exit_code;
 }
 

@@ -8,10 +8,15 @@
 
 namespace airybench {
 
-// Works on a user's model in a child process, which starts no other program (no_programs.hpp), and
-// returns the exit code. Where Gmsh crashes, it works once more with Gmsh's algorithm 6 and says so
-// in a note; where that crashes too, the complaint names file and cause.
+// Works on a user's model in a child process, which starts no other program and writes into
+// `folder` alone (confinement.hpp), whatever the model says; where the kernel cannot do that,
+// models are refused that have words which may need it. Returns the exit code; `take` has the
+// folder's files if it is 0. Where Gmsh crashes, it works once more with Gmsh's algorithm 6 and
+// says so in a note; where that crashes too, the complaint names file and cause.
+using InFolder = std::function<void(const std::filesystem::path& folder)>;
 int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
-               const std::function<int(const ModelOptions&, const AboutToMesh&)>& work);
+               const std::function<void(const ModelOptions&, const AboutToMesh&,
+                                        const std::filesystem::path& folder)>& work,
+               const InFolder& take);
 
 }  // namespace airybench
