@@ -81,10 +81,10 @@ CurvedSide<Scalar>::CurvedSide(const SideCurve& curve, int degree)
       a_(curve.points_mm.front().cast<Scalar>()),
       b_(curve.points_mm.back().cast<Scalar>()) {
   const int count = degree + 1;
+  const bool has_law = !curve.law_normals.empty();
   std::vector<Eigen::Matrix2<Scalar>> fixed;  // R_jᵀ
   for (const Eigen::Vector2d& normal : curve.moment_normals)
     fixed.push_back(curved_formulas::frame_from<Scalar>(normal.cast<Scalar>()).transpose());
-  fixed.resize(static_cast<std::size_t>(count), Eigen::Matrix2<Scalar>::Identity());
   Matrix pairing = Matrix::Zero(2 * count, 2 * count);
   for (int q = 0; q < points; ++q) {
     const CurvePoint<Scalar> point(curve, xi(q));
@@ -92,10 +92,14 @@ CurvedSide<Scalar>::CurvedSide(const SideCurve& curve, int degree)
     normal_[q] = Vector(point.tangent.y(), -point.tangent.x());
     set_test(q);
     density_[q].resize(2, 2 * count);
-    for (int j = 0; j < count; ++j)
-      density_[q].middleCols(2 * j, 2) = Scalar(count) * bernstein_polynomial(degree, j, xi(q)) *
-                                         point.frame.lazyProduct(fixed[j]);
-    pairing += weight(q) * test_[q].transpose().lazyProduct(density_[q]);
+    Matrix along(2, 2 * count);  // B_j of x and of y
+    for (int j = 0; j < count; ++j) {
+      const Scalar B = bernstein_polynomial(degree, j, xi(q));
+      along.middleCols(2 * j, 2) = B * Eigen::Matrix2<Scalar>::Identity();
+      density_[q].middleCols(2 * j, 2) =
+          Scalar(count) * B * (has_law ? point.frame.lazyProduct(fixed[j]).eval() : point.frame);
+    }
+    pairing += weight(q) * (has_law ? test_[q] : along).transpose().lazyProduct(density_[q]);
   }
   pairing_.compute(pairing);
   pairing_transposed_ = pairing.transpose();

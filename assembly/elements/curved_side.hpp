@@ -5,8 +5,8 @@
 // that they work on, are tested with complex polynomials on the chord, continued to the curve; x
 // and y are real and imaginary parts:
 //
-//   q = Σ_j Q_j F_j,   Q_j = (k + 1) B_j(ξ),   m_i = ∫ conj(T_i) q dξ,   T_i = B_i(ẑ),
-//   ẑ = (z(ξ) − z_a)/(z_b − z_a),   P_ij = ∫ conj(T_i) Q_j dξ,   F = P⁻¹ m,   ū = Pᵀ c
+//   m_i = ∫ conj(T_i) q dξ,   T_i = B_i(ẑ),   ẑ = (z(ξ) − z_a)/(z_b − z_a),
+//   F = P⁻¹ m,   ū = Pᵀ c,   P_ij = (k + 1) ∫ B_i B_j dξ
 //
 // where Σ T_i c_i is the best approximation of u. On a straight side these are F and ū of
 // equilibrium_element.hpp. On any curve they have all rigid motions, whose moments are those on the
@@ -14,7 +14,7 @@
 //
 // Under a contact law a density is a polynomial in its frames along the curve, R(ξ) = (n, t),
 //
-//   Q_j = (k + 1) B_j(ξ) R(ξ) R_jᵀ
+//   q = Σ_j Q_j F_j,   Q_j = (k + 1) B_j(ξ) R(ξ) R_jᵀ,   P_ij = ∫ conj(T_i) Q_j dξ
 //
 // with fixed frames R_j, in which F_j are pressure and friction, ū_j normal and tangential motion.
 // The test functions stay, and with them the rigid motions. Normals between those given are their
@@ -81,7 +81,7 @@ class CurvedSide {
     for (int q = 0; q < points; ++q) displacement.col(q) = u(at_[q]);
     return moments(displacement);
   }
-  // q of F at a point: the traction times |x′|.
+  // Under a contact law q of F at a point: the traction times |x′|.
   Vector density(const Eigen::Matrix2X<Scalar>& forces, int q) const;
   // F of the stresses B_i xx, B_i yy, B_i xy of the third: rows as F by columns, columns 3 i + 0,
   // 1, 2.

@@ -82,7 +82,7 @@ class PartReader {
             return of.empty() ? std::string() : fmt::format("{}", of[p]);
           };
           text +=
-              fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_quoted(label(row)), start + s * whole,
+              fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(label(row)), start + s * whole,
                           x.x(), x.y(), bernstein_value(pressure, s), bernstein_value(shear, s),
                           value(contact.gap_mm), value(contact.slip_mm), name_of(contact.state[p]));
         }

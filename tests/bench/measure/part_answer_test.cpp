@@ -52,11 +52,13 @@ TEST_P(OfTooth, ContactLengthsAddUp) {
   EXPECT_LT(face.slipping_mm, face.closed_mm);
 }
 
-TEST_P(OfTooth, TheLargestStressIsAtAnEndOfTheSupport) {
-  EXPECT_GT(answer_.stress.von_mises_MPa.value, answer_.faces.front().pressure_MPa.value / 2);
-  ASSERT_TRUE(answer_.stress.unbounded);
-  EXPECT_EQ(answer_.stress.unbounded->what, "the end of displacement");
-  EXPECT_NEAR(answer_.stress.unbounded->at_mm.x(), 0, 1e-12);
+TEST_P(OfTooth, TheLargestValuesAreThoseOfTheFields) {
+  double largest = 0;
+  for (std::size_t t = 0; t < solved_.hybrid.stress.size(); ++t)
+    for (const auto s : solved_.hybrid.stress.corners(t).colwise())
+      largest = std::max(largest, von_mises(s, 0.3));
+  EXPECT_GE(answer_.stress.von_mises_MPa.value, largest * (1 - 1e-12));
+  EXPECT_LT(answer_.stress.von_mises_MPa.value, largest * (GetParam() > 1 ? 1.2 : 1 + 1e-9));
   ASSERT_TRUE(answer_.displacement_mm);
   EXPECT_GE(answer_.displacement_mm->value, Scene().displacement_mm.norm() * (1 - 1e-9));
 }

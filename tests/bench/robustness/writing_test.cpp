@@ -253,7 +253,7 @@ TEST(Fields, OfTwoCasesAreTwoFiles) {
                      "--repetitions=1 --fields --out=o")
                 .code,
             0);
-  EXPECT_EQ(entries_of(bench.path("o/fields")), 4u * 7u);
+  EXPECT_EQ(entries_of(bench.path("o/fields")), 4u * 9u);
 }
 
 }  // namespace
