@@ -32,10 +32,12 @@ bool start_no_programs() {
   constexpr unsigned load = BPF_LD | BPF_W | BPF_ABS, jump = BPF_JMP | BPF_JEQ | BPF_K,
                      end = BPF_RET | BPF_K;
   // Jumps count the instructions that are passed over: if equal, if not.
-  std::array<sock_filter, 7> program = {{
+  constexpr unsigned other_calls = 0x40000000;  // of x32
+  std::array<sock_filter, 8> program = {{
       {load, 0, 0, offsetof(seccomp_data, arch)},
-      {jump, 0, 3, architecture},
+      {jump, 0, 5, architecture},
       {load, 0, 0, offsetof(seccomp_data, nr)},
+      {BPF_JMP | BPF_JGE | BPF_K, 3, 0, other_calls},
       {jump, 2, 0, SYS_execve},
       {jump, 1, 0, SYS_execveat},
       {end, 0, 0, SECCOMP_RET_ALLOW},

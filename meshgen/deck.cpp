@@ -65,10 +65,12 @@ class DeckReader {
 
   Deck read() {
     set_instance_step();
+    find_shadowed_names();
     each("NODE", [&](const DeckBlock& b, const DeckLine& line) { add_node(b, line); });
-    for (const DeckBlock& block : deck_.file.blocks) {
+    for (DeckBlock& block : deck_.file.blocks) {
       refuse_what_moves_or_adds(block);
       if (block.keyword == "ELEMENT") add_elements(block);
+      if (block.keyword == "ELEMENT" || block.keyword == "NODE") block.data = {};  // most of a deck
       if (block.keyword == "SOLID SECTION" || block.keyword == "SHELL SECTION" ||
           block.keyword == "MEMBRANE SECTION")
         sections_.insert(deck_.full_name(block.value("ELSET"), block));
@@ -81,9 +83,15 @@ class DeckReader {
       given_sets_.insert(deck_.full_name(b.value("ELSET"), b));
       add_to_set(b, line, deck_.elements, deck_.element_sets, "ELSET");
     });
+    for (Deck::Sets* sets : {&deck_.node_sets, &deck_.element_sets})
+      for (auto& [name, members] : *sets) {
+        std::ranges::sort(members);
+        members.erase(std::ranges::unique(members).begin(), members.end());
+      }
     each("SURFACE", [&](const DeckBlock& b, const DeckLine& line) { add_to_surface(b, line); });
     set_boundary();
-    name_edges_by_sets();
+    for (const auto& [name, nodes] : node_surfaces_) add_edges_between(nodes, deck_.surfaces[name]);
+    name_edges();
     deck_.body = bodies();
     return std::move(deck_);
   }
@@ -107,6 +115,17 @@ class DeckReader {
     deck_.instance_step = 1000;
     constexpr long most = 100'000'000;
     while (deck_.instance_step <= largest && deck_.instance_step < most) deck_.instance_step *= 10;
+  }
+
+  void find_shadowed_names() {
+    if (deck_.file.instances.size() != 1) return;
+    DeckNames of_instance, of_model;
+    for (const DeckBlock& block : deck_.file.blocks)
+      for (const char* parameter : {"NSET", "ELSET", "NAME"})
+        if (block.has(parameter))
+          (block.instance >= 0 ? of_instance : of_model).insert(block.value(parameter));
+    for (const std::string& name : of_instance)
+      if (of_model.contains(name)) deck_.shadowed.insert(name);
   }
 
   void add_node(const DeckBlock& block, const DeckLine& line) {
@@ -138,9 +157,13 @@ class DeckReader {
     const std::string set = deck_.full_name(block.value("ELSET"), block);
     std::vector<std::string> pending;  // over several lines
     for (const DeckLine& line : block.data) {
-      for (const std::string& field : line.fields())
-        if (!field.empty()) pending.push_back(field);
+      std::vector<std::string> fields = line.fields();
+      if (fields.back().empty()) fields.pop_back();
+      pending.insert(pending.end(), fields.begin(), fields.end());
       if (pending.size() < model->node_count + 1) continue;
+      if (pending.size() > model->node_count + 1)
+        line.fail(fmt::format("{} nodes (allowed: {} of a {})", pending.size() - 1,
+                              model->node_count, type));
       const long number = deck_.full_number(pending[0], block, line);
       DeckElement element = *model;
       for (std::size_t k = 1; k < pending.size(); ++k) {
@@ -148,6 +171,9 @@ class DeckReader {
         if (!deck_.nodes.contains(element.nodes.back()))
           line.fail(fmt::format("node {} does not exist", pending[k]));
       }
+      for (std::size_t k = 0; k < element.corner_count; ++k)
+        if (std::ranges::count(element.nodes, element.nodes[k]) > 1)
+          line.fail(fmt::format("element {} has node {} twice", number, element.nodes[k]));
       if (!element.is_plane() && element.nodes.size() == 3)  // its middle comes second
         std::swap(element.nodes[1], element.nodes[2]);
       if (!deck_.elements.emplace(number, std::move(element)).second)
@@ -156,17 +182,24 @@ class DeckReader {
       if (!set.empty()) deck_.element_sets[set].push_back(number);
       pending.clear();
     }
+    if (!pending.empty())
+      block.data.back().fail(fmt::format("{} nodes (allowed: {} of a {})", pending.size() - 1,
+                                         model->node_count, type));
   }
 
   // Of members that do not exist none is added by GENERATE.
   template <typename Members>
   void add_to_set(const DeckBlock& block, const DeckLine& line, const Members& members,
                   Deck::Sets& sets, const char* parameter) {
-    std::vector<long>& set = sets[deck_.full_name(block.value(parameter), block)];
+    const std::string name = deck_.full_name(block.value(parameter), block);
+    if (name.empty()) block.line.fail(fmt::format("*{} without a name", block.keyword));
+    std::vector<long>& set = sets[name];
     const std::vector<std::string> fields = line.fields();
     if (!block.has("GENERATE")) {
       for (const std::string& field : fields) {
         if (field.empty()) continue;
+        if (in_capitals(deck_.full_name(field, block)) == in_capitals(name))
+          line.fail(fmt::format("set {} holds itself", name));
         const std::vector<long> more = deck_.members(sets, field, block, line);
         set.insert(set.end(), more.begin(), more.end());
       }
@@ -185,15 +218,15 @@ class DeckReader {
     const std::vector<std::string> fields = line.fields();
     const std::string name = deck_.full_name(block.value("NAME"), block);
     if (in_capitals(block.value("TYPE")) == "NODE") {
-      std::vector<long>& set = deck_.node_sets[name];
+      std::set<long>& set = node_surfaces_[name];
       const std::vector<long> more = deck_.members(deck_.node_sets, fields[0], block, line);
-      set.insert(set.end(), more.begin(), more.end());
+      set.insert(more.begin(), more.end());
       return;
     }
     if (fields.size() < 2 || fields[1].empty())
       line.fail("a surface without a side (allowed: as 'Eleft, S1')");
     for (const long element : deck_.members(deck_.element_sets, fields[0], block, line))
-      deck_.names[deck_.side(element, fields[1], line)].insert(name);
+      deck_.surfaces[name].insert(deck_.side(element, fields[1], line));
   }
 
   void set_boundary() {
@@ -206,17 +239,24 @@ class DeckReader {
       if (of.size() == 1) deck_.boundary.emplace(edge, of.front());
   }
 
-  void name_edges_by_sets() {
+  void add_edges_between(const std::set<long>& nodes, std::set<DeckEdge>& edges) const {
+    for (const auto& [edge, element] : deck_.boundary)
+      if (nodes.contains(edge[0]) && nodes.contains(edge[1])) edges.insert(edge);
+  }
+
+  void name_edges() {
     for (const auto& [name, numbers] : deck_.element_sets)
       for (const long number : numbers)
         if (const auto found = deck_.elements.find(number);
             found != deck_.elements.end() && !found->second.is_plane())
           deck_.names[deck_edge(found->second.nodes[0], found->second.nodes[1])].insert(name);
     for (const auto& [name, numbers] : deck_.node_sets) {
-      const std::set<long> set(numbers.begin(), numbers.end());
-      for (const auto& [edge, element] : deck_.boundary)
-        if (set.contains(edge[0]) && set.contains(edge[1])) deck_.names[edge].insert(name);
+      std::set<DeckEdge> edges;
+      add_edges_between({numbers.begin(), numbers.end()}, edges);
+      for (const DeckEdge& edge : edges) deck_.names[edge].insert(name);
     }
+    for (const auto& [name, edges] : deck_.surfaces)
+      for (const DeckEdge& edge : edges) deck_.names[edge].insert(name);
   }
 
   // Empty unless the sets share out the plane elements.
@@ -225,9 +265,9 @@ class DeckReader {
     for (const std::string& set : sets)
       if (const auto found = deck_.element_sets.find(set); found != deck_.element_sets.end())
         for (const long number : found->second)
-          if (const auto it = deck_.elements.find(number); it != deck_.elements.end() &&
-                                                           it->second.is_plane() &&
-                                                           !body.emplace(number, set).second)
+          if (const auto it = deck_.elements.find(number);
+              it != deck_.elements.end() && it->second.is_plane() &&
+              !body.emplace(number, found->first).second)
             return {};
     for (const auto& [number, element] : deck_.elements)
       if (element.is_plane() && !body.contains(number)) return {};
@@ -244,18 +284,20 @@ class DeckReader {
 
   Deck deck_;
   std::map<long, std::string> set_of_keyword_;  // of *ELEMENT
-  DeckNames given_sets_, sections_;             // of *ELSET, of *SOLID SECTION and its like
+  std::map<std::string, std::set<long>, WithoutCase> node_surfaces_;
+  DeckNames given_sets_, sections_;  // of *ELSET, of *SOLID SECTION and its like
 };
 
 }  // namespace
 
 std::string Deck::full_name(const std::string& name, const DeckBlock& block) const {
   if (name.empty()) return name;
-  if (instance_step == 0) {  // "plate-1.left" is left
-    for (const DeckInstance& instance : file.instances)
-      if (in_capitals(name).starts_with(in_capitals(instance.name) + "."))
-        return name.substr(instance.name.size() + 1);
-    return name;
+  if (instance_step == 0) {
+    if (file.instances.empty()) return name;
+    const std::string prefix = file.instances.front().name + ".";
+    const bool is_qualified = in_capitals(name).starts_with(in_capitals(prefix));
+    const std::string own = is_qualified ? name.substr(prefix.size()) : name;
+    return (is_qualified || block.instance >= 0) && shadowed.contains(own) ? prefix + own : own;
   }
   if (block.instance >= 0)
     return fmt::format("{}.{}", file.instances[static_cast<std::size_t>(block.instance)].name,
@@ -316,10 +358,12 @@ std::string Deck::shown(long node) const {
 }
 
 std::string Deck::face(const std::string& name, const DeckLine& line) const {
-  for (const auto& [edge, of_edge] : names)
-    for (const std::string& known : of_edge)
-      if (in_capitals(known) == in_capitals(name) && boundary.contains(edge)) return known;
-  line.fail(fmt::format("surface {} has no edge of the boundary", name));
+  const auto found = surfaces.find(name);
+  if (found == surfaces.end() || std::ranges::none_of(found->second, [&](const auto& edge) {
+        return boundary.contains(edge);
+      }))
+    line.fail(fmt::format("surface {} has no edge of the boundary", name));
+  return found->first;
 }
 
 Deck read_deck(const std::string& text, const std::filesystem::path& folder) {

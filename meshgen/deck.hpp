@@ -43,6 +43,7 @@ struct Deck {
   std::map<long, Eigen::Vector3d> nodes;
   std::map<long, DeckElement> elements;
   Sets node_sets, element_sets;
+  std::map<std::string, std::set<DeckEdge>, WithoutCase> surfaces;
   std::map<DeckEdge, std::set<std::string>> names;  // of node sets, sets of lines and surfaces
   std::map<DeckEdge, long> boundary;                // edges of one plane element, and that
   std::map<long, std::string> body;                 // of plane elements
@@ -57,9 +58,10 @@ struct Deck {
 
   Eigen::Vector2d place(long node) const { return nodes.at(node).head<2>(); }
   std::string shown(long node) const;  // "node 5 at (0, 1)"
-  // A set or surface with edges of the boundary, as it was first written.
+  // A surface, of whose edges some are on the boundary, as it was first written.
   std::string face(const std::string& name, const DeckLine& line) const;
 
+  DeckNames shadowed;      // of the only instance and of the whole model: there "bolt-1.Set-1"
   long instance_step = 0;  // between numbers of instances; 0: there is one at most
 };
 

@@ -33,6 +33,7 @@ class BlockReader {
     bool goes_on = false;  // a keyword's line that ends with a comma
     for (std::string line; std::getline(lines, line);) {
       ++number;
+      line.erase(0, std::min(line.find_first_not_of(" \t"), line.size()));
       if (line.starts_with("**") || line.find_first_not_of(" \t\r") == line.npos) continue;
       const DeckLine here{line, fmt::format("{}line {}", prefix, number)};
       if (line.starts_with("*")) {
@@ -69,6 +70,7 @@ class BlockReader {
     if (blocks_.empty() || blocks_.back().keyword != "INCLUDE") return;
     const DeckBlock block = std::move(blocks_.back());
     blocks_.pop_back();
+    if (!block.data.empty()) block.data.front().fail("data after *INCLUDE");
     const std::filesystem::path file = block.value("INPUT");
     const bool leaves = file.is_absolute() || std::ranges::find(file, "..") != file.end();
     if (file.empty() || leaves)
@@ -173,7 +175,9 @@ DeckFile read_deck_file(const std::string& text, const std::filesystem::path& fo
 }
 
 bool includes_files(const std::string& text) {
-  return in_capitals(text).find("*INCLUDE") != text.npos;
+  std::string tight = in_capitals(text);
+  std::erase_if(tight, [](char c) { return c == ' ' || c == '\t'; });
+  return tight.find("*INCLUDE") != tight.npos;
 }
 
 std::string in_capitals(std::string text) {

@@ -31,6 +31,7 @@ class SceneReader {
  public:
   explicit SceneReader(const Deck& deck)
       : deck_(deck), properties_(read_properties(deck)), states_(read_steps(deck)) {
+    check_plane();
     for (const auto& [edge, element] : deck.boundary)
       for (const long node : nodes_of(edge)) edges_of_[node].push_back(edge);
   }
@@ -47,6 +48,19 @@ class SceneReader {
   }
 
  private:
+  void check_plane() const {
+    std::optional<double> z;
+    for (const auto& [number, element] : deck_.elements)
+      for (const long node : element.nodes) {
+        const Eigen::Vector3d& x = deck_.nodes.at(node);
+        if (!z) z = x.z();
+        constexpr double rounding = 1e-6;
+        if (element.is_plane() && std::abs(x.z() - *z) > rounding * (1 + x.head<2>().norm()))
+          throw InputError(fmt::format("{} has z = {}, others {} (allowed: a plane z = constant)",
+                                       deck_.shown(node), x.z(), *z));
+      }
+  }
+
   // Corners, and the node between them if there is one.
   std::vector<long> nodes_of(const DeckEdge& edge) const {
     std::vector<long> nodes = {edge[0], edge[1]};
@@ -59,19 +73,25 @@ class SceneReader {
   }
   Eigen::Vector2d place(long node) const { return deck_.place(node); }
   double length(const DeckEdge& edge) const { return (place(edge[1]) - place(edge[0])).norm(); }
+  // What all nodes of an edge have in common.
   Held held_on(const StepState& state, const DeckEdge& edge) const {
+    const std::vector<long> nodes = nodes_of(edge);
     Held held;
-    const auto a = state.held.find(edge[0]), b = state.held.find(edge[1]);
-    if (a == state.held.end() || b == state.held.end()) return held;
-    for (std::size_t k = 0; k < 2; ++k)
-      if (a->second[k] && b->second[k]) {
-        if (*a->second[k] != *b->second[k])
+    for (std::size_t k = 0; k < 2; ++k) {
+      const auto value_at = [&](long node) -> std::optional<double> {
+        const auto found = state.held.find(node);
+        return found == state.held.end() ? std::nullopt : found->second[k];
+      };
+      if (!std::ranges::all_of(nodes, [&](long node) { return value_at(node).has_value(); }))
+        continue;
+      held[k] = value_at(nodes.front());
+      for (const long node : nodes)
+        if (*value_at(node) != *held[k])
           throw InputError(
               fmt::format("*BOUNDARY: {} and {} are moved differently (allowed: "
                           "sides that keep their shape)",
-                          deck_.shown(edge[0]), deck_.shown(edge[1])));
-        held[k] = a->second[k];
-      }
+                          deck_.shown(nodes.front()), deck_.shown(node)));
+    }
     return held;
   }
 
@@ -125,40 +145,48 @@ class SceneReader {
             "*CLOAD: {}: a force in this node alone, where stress is infinite (allowed: on all "
             "nodes of sides of the boundary, or *DLOAD, *DSLOAD)",
             deck_.shown(chain.front())));
-      Eigen::Vector2d total = Eigen::Vector2d::Zero(), centre = total;
+      Eigen::Vector2d total = Eigen::Vector2d::Zero();
       double whole = 0;
+      for (const DeckEdge& edge : edges) whole += length(edge);
+      for (const long node : chain) total += forces.at(node);
+      std::map<long, Eigen::Vector2d> even;  // what an even traction gives each node
       for (const DeckEdge& edge : edges) {
-        whole += length(edge);
-        centre += length(edge) * (place(edge[0]) + place(edge[1])) / 2;
+        const std::vector<long> nodes = nodes_of(edge);
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+          const double share = nodes.size() == 2 ? 1. / 2 : k < 2 ? 1. / 6 : 4. / 6;
+          even.emplace(nodes[k], Eigen::Vector2d::Zero()).first->second +=
+              share * length(edge) / whole * total;
+        }
       }
-      centre /= whole;
-      double moment = 0, size = 0;
+      double largest = 0, off_even = 0, off_equal = 0;
       for (const long node : chain) {
-        const Eigen::Vector2d &force = forces.at(node), arm = place(node) - centre;
-        total += force;
-        moment += arm.x() * force.y() - arm.y() * force.x();
-        size += force.norm();
+        const Eigen::Vector2d& force = forces.at(node);
+        largest = std::max(largest, force.norm());
+        off_even = std::max(off_even, (force - even.at(node)).norm());
+        off_equal = std::max(off_equal, (force - total / static_cast<double>(chain.size())).norm());
       }
       constexpr double uneven = 0.02;
-      if (std::abs(moment) > uneven * size * whole)
+      const bool are_equal = off_even > uneven * largest;
+      if (are_equal && off_equal > uneven * largest)
         throw InputError(
             fmt::format("*CLOAD: forces from {} on are not even along their sides (allowed: even "
-                        "ones, as *DLOAD or *DSLOAD gives them)",
+                        "ones, or the same on each node; *DLOAD and *DSLOAD give pressures)",
                         deck_.shown(chain.front())));
       for (const DeckEdge& edge : edges)
         traction_[step][edge] = total / (whole * properties_.thickness_mm);
-      if (step == 0)
+      if (noted_.insert(chain.front()).second)
         properties_.notes.push_back(fmt::format(
-            "*CLOAD on {} nodes from {} on: as an even traction with the same resultant",
-            chain.size(), deck_.shown(chain.front())));
+            "*CLOAD on {} nodes from {} on{}: as an even traction with the same "
+            "resultant",
+            chain.size(), deck_.shown(chain.front()), are_equal ? ", the same on each" : ""));
     }
   }
 
   EdgeState state_on(std::size_t step, const DeckEdge& edge) const {
     EdgeState state{held_on(states_[step], edge), {}, {}};
-    for (const auto& [id, pressure] : states_[step].pressures)
-      if (std::ranges::find(pressure.edges, edge) != pressure.edges.end())
-        state.pressure_MPa = state.pressure_MPa.value_or(0) + pressure.value_MPa;
+    for (const auto& of_kind : states_[step].pressures)
+      if (const auto found = of_kind.find(edge); found != of_kind.end())
+        state.pressure_MPa = state.pressure_MPa.value_or(0) + found->second.value_MPa;
     if (const auto of_step = traction_.find(step); of_step != traction_.end())
       if (const auto found = of_step->second.find(edge); found != of_step->second.end())
         state.traction_MPa = found->second;
@@ -166,12 +194,10 @@ class SceneReader {
   }
 
   std::string face_of(const DeckEdge& edge) const {
-    const auto names = deck_.names.find(edge);
     std::string face;
-    if (names == deck_.names.end()) return face;
     for (const DeckPair& pair : properties_.pairs)
       for (const std::string& name : pair.faces)
-        if (names->second.contains(name)) {
+        if (deck_.surfaces.at(name).contains(edge)) {
           if (!face.empty())
             throw InputError(fmt::format("surfaces {} and {} of contact pairs share the side at {}",
                                          face, name, deck_.shown(edge[0])));
@@ -217,6 +243,9 @@ class SceneReader {
         continue;
       }
       if (!is_held && !is_loaded) continue;
+      if (is_full && is_loaded)
+        properties_.notes.push_back(fmt::format(
+            "the load on the held side at {} only adds to its reaction", deck_.shown(edge[0])));
       if (is_held && !is_full) {
         if (is_loaded) refuse("held in one direction, and loaded (allowed: one)");
         const Eigen::Vector2d along = (place(edge[1]) - place(edge[0])) / length(edge);
@@ -227,9 +256,10 @@ class SceneReader {
       std::string& label = label_of[key];
       if (label.empty()) {
         std::string name = name_of_set(edge, is_held ? "held" : "loaded");
-        for (const auto& [id, pressure] : states_.front().pressures)
-          if (!is_held && std::ranges::find(pressure.edges, edge) != pressure.edges.end())
-            name = pressure.name;
+        for (const StepState& state : states_)
+          for (const auto& of_kind : state.pressures)
+            if (const auto found = of_kind.find(edge); !is_held && found != of_kind.end())
+              name = found->second.name;
         label = fmt::format("{}:{}", is_held ? "displacement" : "force", name);
         for (int k = 2; !taken.insert(label).second; ++k)
           label = fmt::format("{}:{}_{}", is_held ? "displacement" : "force", name, k);
@@ -289,7 +319,8 @@ class SceneReader {
             continue;
           if (!material.density)
             throw InputError(fmt::format("GRAV: the material of {} has no *DENSITY", body));
-          of_body[body] = *material.density * acceleration;
+          of_body.emplace(body, Eigen::Vector2d::Zero()).first->second +=
+              *material.density * acceleration;
         }
       }
       force = of_body.empty() ? force : of_body.begin()->second;
@@ -346,6 +377,7 @@ class SceneReader {
   const std::vector<StepState> states_;
   std::map<long, std::vector<DeckEdge>> edges_of_;  // of the boundary, by their nodes
   std::map<std::size_t, std::map<DeckEdge, Eigen::Vector2d>> traction_;  // of *CLOAD, per step
+  std::set<long> noted_;  // where chains of *CLOAD begin
   std::map<DeckEdge, std::string> label_;
   std::map<std::string, DeckEdge> example_;  // an edge of each label
 };

@@ -28,6 +28,12 @@ Amplitudes read_amplitudes(const Deck& deck) {
       const std::vector<std::string> fields = line.fields();
       for (std::size_t k = 0; k + 1 < fields.size(); k += 2)
         points.push_back({line.number(fields[k]), line.number(fields[k + 1])});
+      if (fields.size() % 2 == 1 && !fields.back().empty()) line.fail("a time without its factor");
+    }
+    for (std::size_t k = 1; k < points.size(); ++k)
+      if (!(points[k][0] > points[k - 1][0])) block.line.fail("times that do not rise");
+    if (!points.empty() && points.front()[0] > 0) {
+      block.line.fail("an amplitude that begins after 0");
     }
   }
   return amplitudes;
@@ -40,7 +46,7 @@ double factor_of(const DeckBlock& block, const Amplitudes& amplitudes, double du
   if (known == amplitudes.end() || known->second.empty())
     block.line.fail(fmt::format("AMPLITUDE={}: no such *AMPLITUDE", block.value("AMPLITUDE")));
   const Amplitude& points = known->second;
-  double value = points.back()[1];
+  double value = duration <= points.front()[0] ? points.front()[1] : points.back()[1];
   for (std::size_t k = 1; k < points.size(); ++k) {
     const auto [before, start] = points[k - 1];
     const auto [after, end] = points[k];
@@ -89,11 +95,14 @@ class StepReader {
     if (block.has("PERTURBATION"))
       block.line.fail("*STEP, PERTURBATION (allowed: *STATIC from the state before)");
     given_.clear();
+    cleared_.clear();
     duration_ = 1;
   }
 
   void take(const DeckBlock& block) {
-    const bool is_new = in_capitals(block.value("OP")) == "NEW";
+    // The first card of its kind in a step removes those of earlier steps.
+    const bool is_new = block.has("OP") && in_capitals(block.value("OP")) == "NEW" &&
+                        cleared_.insert(block.keyword).second;
     const auto factor = [&] { return factor_of(block, amplitudes_, duration_); };
     if (block.keyword == "BOUNDARY") {
       if (is_new) state_.held.clear();
@@ -102,13 +111,12 @@ class StepReader {
       if (is_new) state_.force_N.clear();
       for (const DeckLine& line : block.data) push(block, line, factor());
     } else if (block.keyword == "DLOAD" || block.keyword == "DSLOAD") {
-      if (is_new) {
-        state_.pressures.clear();
-        state_.gravity.clear();
-      }
+      if (is_new) state_.pressures[kind_of(block)].clear();
+      if (is_new && block.keyword == "DLOAD") state_.gravity.clear();
       for (const DeckLine& line : block.data) press(block, line, factor());
     }
   }
+  static std::size_t kind_of(const DeckBlock& block) { return block.keyword == "DLOAD" ? 0 : 1; }
 
   void note_set(const std::string& name, const DeckBlock& block) {
     for (const std::string& full : {deck_.full_name(name, block), name})
@@ -168,14 +176,18 @@ class StepReader {
     const std::vector<std::string> fields = line.fields();
     if (fields.size() < 3)
       line.fail(fmt::format("*{}: a set, P or GRAV, and a value", block.keyword));
-    const std::string kind = in_capitals(fields[1]), id = in_capitals(fields[0]) + " " + kind;
+    const std::string kind = in_capitals(fields[1]);
     const double value = factor * line.number(fields[2]);
     if (kind == "GRAV" && block.keyword == "DLOAD") {
       if (fields.size() < 5) line.fail("GRAV: a set, GRAV, acceleration and direction");
       const double z = fields.size() > 5 && !fields[5].empty() ? line.number(fields[5]) : 0;
       const Eigen::Vector2d direction(line.number(fields[3]), line.number(fields[4]));
       if (z != 0 || direction.isZero(0)) line.fail("GRAV across the plane (allowed: in x and y)");
-      state_.gravity[deck_.full_name(fields[0], block)] = value * direction.normalized();
+      Eigen::Vector2d& acceleration =
+          state_.gravity.emplace(deck_.full_name(fields[0], block), Eigen::Vector2d::Zero())
+              .first->second;
+      if (is_first_in_step("GRAV " + in_capitals(fields[0]))) acceleration.setZero();
+      acceleration += value * direction.normalized();
       return;
     }
     const bool is_of_side =
@@ -183,29 +195,30 @@ class StepReader {
     if (!is_of_side && !(block.keyword == "DSLOAD" && kind == "P"))
       line.fail(fmt::format("*{}, {} (allowed: {})", block.keyword, kind,
                             block.keyword == "DLOAD" ? "P1 to P4, GRAV" : "P"));
-    auto& [name, edges, pressure] = state_.pressures[id];
-    if (is_first_in_step(id)) pressure = 0;
-    pressure += value;
-    if (!edges.empty()) return;
-    name = is_of_side ? fmt::format("{}_{}", fields[0], kind) : fields[0];
+    std::vector<DeckEdge> edges;
     if (is_of_side) {
       for (const long element : deck_.members(deck_.element_sets, fields[0], block, line))
         edges.push_back(deck_.side(element, kind, line));
     } else {
-      const std::string surface = deck_.face(deck_.full_name(fields[0], block), line);
-      for (const auto& [edge, names] : deck_.names)
-        if (names.contains(surface)) edges.push_back(edge);
+      const auto& of_surface =
+          deck_.surfaces.at(deck_.face(deck_.full_name(fields[0], block), line));
+      edges.assign(of_surface.begin(), of_surface.end());
     }
-    for (const DeckEdge& edge : edges)
+    for (const DeckEdge& edge : edges) {
       if (!deck_.boundary.contains(edge))
         line.fail(fmt::format("a side between elements, at {} (allowed: of the boundary)",
                               deck_.shown(edge[0])));
+      StepState::Pressure& pressure = state_.pressures[kind_of(block)][edge];
+      if (is_first_in_step(fmt::format("{} {} {}", block.keyword, edge[0], edge[1])))
+        pressure = {is_of_side ? fmt::format("{}_{}", fields[0], kind) : fields[0], 0};
+      pressure.value_MPa += value;
+    }
   }
 
   const Deck& deck_;
   const Amplitudes amplitudes_;
   StepState state_;
-  std::set<std::string> given_;  // in this step
+  std::set<std::string> given_, cleared_;  // in this step: loads; keywords, by OP=NEW
   double duration_ = 1;
 };
 

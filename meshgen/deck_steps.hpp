@@ -19,12 +19,12 @@ struct StepState {
   std::map<long, Eigen::Vector2d> force_N;  // of nodes
   struct Pressure {
     std::string name;
-    std::vector<DeckEdge> edges;
     double value_MPa = 0;
   };
-  std::map<std::string, Pressure> pressures;
-  std::map<std::string, Eigen::Vector2d> gravity;  // mm/s² per element set
-  DeckNames sets;                                  // of nodes that are held or loaded
+  // Of *DLOAD and of *DSLOAD, per edge of the boundary.
+  std::array<std::map<DeckEdge, Pressure>, 2> pressures;
+  std::map<std::string, Eigen::Vector2d, WithoutCase> gravity;  // mm/s² per element set
+  DeckNames sets;                                               // of nodes that are held or loaded
 };
 
 // One at least. Loads grow evenly in each step. Throws InputError: line, what is wrong.

@@ -295,6 +295,28 @@ bool has_unknown_words(const std::vector<Token>& tokens, const GeoScript& script
          (at > 0 && (tokens[at - 1].is("For") || tokens[at - 1].is("Macro") ||
                      tokens[at - 1].is("Function")))))
       own.insert(tokens[at].text);
+  // A script may call them in spite of a definition that Gmsh never comes to.
+  for (const std::string_view command : {"SystemCall",
+                                         "NonBlockingSystemCall",
+                                         "System",
+                                         "OnelabRun",
+                                         "Save",
+                                         "Print",
+                                         "Plugin",
+                                         "CreateDir",
+                                         "Exit",
+                                         "Abort",
+                                         "ListFromFile",
+                                         "MergeFile",
+                                         "MergeWithBoundingBox",
+                                         "ShapeFromFile",
+                                         "FileExists",
+                                         "GetEnv",
+                                         "Rand",
+                                         "Cpu",
+                                         "Memory",
+                                         "Today"})
+    own.erase(command);
   for (std::size_t at = 0; at < tokens.size(); ++at) {
     const Token& token = tokens[at];
     if (token.kind == Token::literal && token.text.find_first_of("\\\n") != std::string::npos)

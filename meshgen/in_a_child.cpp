@@ -87,8 +87,12 @@ int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
   if (second.end.signal != 0)
     return complain(cause + (first.algorithm && first.algorithm != "6" ? ", and with 6" : ""),
                     exit_failure);
-  fmt::print(stderr, "note: {}: meshed with 6\n", cause);
-  if (second.end.exit_code == 0) take(other.path());
+  if (second.end.exit_code == no_memory_exit_code)
+    return complain(model.string() + ": out of memory", exit_failure);
+  if (second.end.exit_code == 0) {
+    fmt::print(stderr, "note: {}: meshed with 6\n", cause);
+    take(other.path());
+  }
   return second.end.exit_code;
 }
 

@@ -159,6 +159,104 @@ TEST_F(Decks, ForcesOnTheNodesOfASideAreATraction) {
   EXPECT_NEAR(traction[1].get<double>(), -2.5, 1e-6);
 }
 
+nlohmann::json of(const std::filesystem::path& deck) {
+  return nlohmann::json::parse(prescribed_by(deck).json);
+}
+
+TEST_F(Decks, ASetCountsEachNodeOnce) {
+  const auto traction = [&](const std::string& sets) {
+    return of(plate(
+        {{"*MATERIAL", sets + "*MATERIAL"},
+         {"Nhead, 1, 2\n",
+          "Nhead, 1, 2\n*CLOAD\nNsole, 2, -10.\n"}}))["boundary"]["force:Nsole"]["traction_MPa"][1]
+        .get<double>();
+  };
+  EXPECT_DOUBLE_EQ(traction("*NSET, NSET=Nsole\n1, 2, 3\n"), -3);
+  EXPECT_DOUBLE_EQ(traction("*NSET, NSET=Nsole\n1, 2, 3\n*NSET, NSET=nsole, GENERATE\n1, 3, 1\n"),
+                   -3);
+}
+
+// The first card with OP=NEW removes what earlier steps have, the next ones add to it.
+TEST_F(Decks, CardsOfOneStepAddUp) {
+  const std::string step = "*END STEP\n*STEP\n*STATIC\n",
+                    new_loads = "*DLOAD, OP=NEW\n1, P1, 2.\n*DLOAD, OP=NEW\n2, P1, 3.\n";
+  const auto steps = [&](const std::string& more) {
+    return of(plate({{"Nhead, 1, 2\n", "Nhead, 1, 2\n*DLOAD\nEall, P1, 7.\n" + step + more}}));
+  };
+  const nlohmann::json renewed = steps(new_loads);
+  EXPECT_EQ(renewed["boundary"]["force:Eall_P1"]["pressure_MPa"], 7.);
+  EXPECT_EQ(renewed["load_steps"][0]["boundary"].size(), 2u);
+  // A pressure on the same side takes the place of the earlier one.
+  EXPECT_EQ(steps("*DLOAD\nEsole, P1, 9.\n")["load_steps"][0]["boundary"].dump(),
+            R"({"force:Eall_P1":{"pressure_MPa":9.0}})");
+}
+
+TEST_F(Decks, SurfacesAndSetsOfOneNameAreTwo) {
+  const nlohmann::json scene =
+      of(plate({{"*MATERIAL", "*NSET, NSET=Ssole\n1, 4\n*MATERIAL"},
+                {"Nhead, 1, 2\n", "Nhead, 1, 2\n*DSLOAD\nSsole, P, 5.\n"}}));
+  int pressed = 0;
+  for (const auto& [curve, label] : scene["roles"].items())
+    pressed += label == "force:Ssole" ? 1 : 0;
+  EXPECT_EQ(pressed, 1);  // the side, and not the edge between nodes 1 and 4
+}
+
+TEST_F(Decks, ASetOfThePartIsNotThatOfTheAssembly) {
+  const std::filesystem::path file = testing::write_text(folder_ / "shadow.inp", R"(*PART, NAME=P
+*NODE
+1, 0., 0.
+2, 4., 0.
+3, 4., 2.
+4, 0., 2.
+*ELEMENT, TYPE=CPS4
+1, 1, 2, 3, 4
+*NSET, NSET=Set-1, GENERATE
+1, 4, 1
+*ELSET, ELSET=Set-1
+1
+*SOLID SECTION, ELSET=Set-1, MATERIAL=m
+*END PART
+*ASSEMBLY, NAME=A
+*INSTANCE, NAME=P-1, PART=P
+*END INSTANCE
+*NSET, NSET=Set-1, INSTANCE=P-1
+1, 4
+*ELSET, ELSET=E, INSTANCE=P-1
+1
+*SURFACE, NAME=S
+E, S2
+*END ASSEMBLY
+*MATERIAL, NAME=m
+*ELASTIC
+1000., 0.3
+*STEP
+*STATIC
+*BOUNDARY
+Set-1, ENCASTRE
+*DSLOAD
+S, P, 1.
+*END STEP
+)");
+  const nlohmann::json scene = of(file);
+  EXPECT_EQ(scene["boundary"].size(), 2u) << scene;
+  EXPECT_EQ(scene["boundary"]["force:S"]["pressure_MPa"], 1.);
+}
+
+TEST_F(Decks, SidesOfQuadraticElementsAreHeldWithTheirMiddles) {
+  const std::string deck =
+      "*NODE\n1, 0., 0.\n2, 4., 0.\n3, 4., 2.\n4, 0., 2.\n5, 2., 0.\n6, 4., 1.\n"
+      "7, 2., 2.\n8, 0., 1.\n*ELEMENT, TYPE=CPS8, ELSET=e\n1, 1, 2, 3, 4, 5, 6, "
+      "7, 8\n*MATERIAL, NAME=m\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=E, "
+      "MATERIAL=M\n*STEP\n*STATIC\n*BOUNDARY\n1, 1, 2\n4, 1, 2\n";
+  const auto file = testing::write_text(folder_ / "corners.inp", deck + "*END STEP\n");
+  EXPECT_NE(testing::complaint_of<InputError>([&] {
+              prescribed_by(file);
+            }).find("x is held in this node alone"),
+            std::string::npos);
+  const auto whole = testing::write_text(folder_ / "whole.inp", deck + "8, 1, 2\n*END STEP\n");
+  EXPECT_EQ(of(whole)["boundary"].size(), 1u);
+}
+
 TEST_F(Decks, AMeshAloneIsNoScene) {
   EXPECT_EQ(prescribed_by(plate({{"*MATERIAL, NAME=steel\n*ELASTIC\n210000., 0.3\n", ""},
                                  {"*SOLID SECTION, ELSET=Eall, MATERIAL=steel\n", ""},
@@ -190,6 +288,26 @@ TEST_F(Decks, WhatWouldBeAnotherProblemIsRefused) {
             "INTERACTION=i: no "},
            {"*BOUNDARY\n", "*BOUNDARY, AMPLITUDE=a\n", "AMPLITUDE=a: no such *AMPLITUDE"},
            {"*END STEP", "", "the last *STEP has no *END STEP"},
+           {"*STEP\n", "*STEP, RIKS\n", "*STEP, RIKS (allowed: NLGEOM"},
+           {"*STATIC\n", "*STATIC, STABILIZE\n", "*STATIC, STABILIZE"},
+           {"*BOUNDARY\n", "*BOUNDARY, FIXED\n", "*BOUNDARY, FIXED"},
+           {"*BOUNDARY\n", "*BOUNDARY, TYPE=VELOCITY\n", "*BOUNDARY, TYPE=VELOCITY"},
+           {"*STEP\n", "*SURFACE INTERACTION, NAME=i\n*SURFACE BEHAVIOR, NO SEPARATION\n*STEP\n",
+            "*SURFACE BEHAVIOR, NO SEPARATION"},
+           {"*STEP\n", "*SURFACE INTERACTION, NAME=i\n*FRICTION, TAUMAX=5.\n0.5\n*STEP\n",
+            "*FRICTION, TAUMAX"},
+           {"*STEP\n", "*AMPLITUDE, NAME=a\n2., 0., 3., 1.\n*STEP\n", "begins after 0"},
+           {"*STEP\n", "*AMPLITUDE, NAME=a, TIME=TOTAL TIME\n0., 0., 3., 1.\n*STEP\n",
+            "*AMPLITUDE, TIME=TOTAL TIME"},
+           {"*STEP\n", "  *TIE, NAME=t\nSsole, Sother\n*STEP\n", "*TIE: bonded faces"},
+           {held, held + "*CLOAD\n1, 2, -10.\n2, 2, 20.\n3, 2, -10.\n", "are not even along"},
+           {"2, 2, 3, 6, 5\n", "2, 2, 3, 6, 5\n3, 3, 6, 5\n", "3 nodes (allowed: 4 of a CPE4)"},
+           {"2, 2, 3, 6, 5\n", "2, 2, 3, 6, 5, 4\n", "5 nodes (allowed: 4 of a CPE4)"},
+           {"2, 2, 3, 6, 5\n", "2, 2, 3, 6, 6\n", "element 2 has node 6 twice"},
+           {"*MATERIAL", "*NSET, NSET=Nloop\n1, Nloop\n*MATERIAL", "set Nloop holds itself"},
+           {"*STEP\n", "*SOLID SECTION, ELSET=Esole, MATERIAL=steel\n*STEP\n",
+            "element 1 has two sections"},
+           {"6, 8., 5.\n", "6, 8., 5., 1.\n", "(allowed: a plane z = constant)"},
            {"MATERIAL=steel\n", "MATERIAL=brass\n", "MATERIAL=brass: no *MATERIAL"},
        }) {
     const std::filesystem::path file = plate({{old, by}});
