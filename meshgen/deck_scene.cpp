@@ -213,6 +213,15 @@ class SceneReader {
     return otherwise;
   }
 
+  // The first that is given.
+  std::optional<std::string> name_of_pressure(const DeckEdge& edge) const {
+    for (const StepState& state : states_)
+      for (const auto& of_kind : state.pressures)
+        if (const auto found = of_kind.find(edge); found != of_kind.end())
+          return found->second.name;
+    return {};
+  }
+
   void label_edges() {
     std::map<std::string, std::string> label_of;  // by what is prescribed in all steps
     std::set<std::string> taken;
@@ -256,10 +265,7 @@ class SceneReader {
       std::string& label = label_of[key];
       if (label.empty()) {
         std::string name = name_of_set(edge, is_held ? "held" : "loaded");
-        for (const StepState& state : states_)
-          for (const auto& of_kind : state.pressures)
-            if (const auto found = of_kind.find(edge); !is_held && found != of_kind.end())
-              name = found->second.name;
+        if (!is_held) name = name_of_pressure(edge).value_or(name);
         label = fmt::format("{}:{}", is_held ? "displacement" : "force", name);
         for (int k = 2; !taken.insert(label).second; ++k)
           label = fmt::format("{}:{}_{}", is_held ? "displacement" : "force", name, k);
