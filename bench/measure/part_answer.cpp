@@ -141,15 +141,20 @@ class PartReader {
     std::map<std::string, FaceAnswer> faces;
     for (int row = 0; row < rows(); ++row) {
       if (!is_contact(row)) continue;
-      if (const int other = problem_.opposite_of(row); other != Problem::no_row)
-        if (std::pair(label(row), row) > std::pair(label(other), other)) continue;
-      FaceAnswer& face = face_of(row, faces);
-      const double whole = length(row);
-      const int first = point_of_row_[static_cast<std::size_t>(row)];
+      const int other = problem_.opposite_of(row),
+                first = point_of_row_[static_cast<std::size_t>(row)];
+      const bool is_second =
+          other != Problem::no_row && std::pair(label(row), row) > std::pair(label(other), other);
+      FaceAnswer& face = face_of(is_second ? other : row, faces);
       AlongEdge normal_forces(n);
-      for (int j = 0; j < n; ++j) {
-        const int p = first + j;
-        normal_forces(j) = F_C_(m * p);
+      for (int j = 0; j < n; ++j) normal_forces(j) = F_C_(m * (first + j));
+      const LargestValue largest =
+          largest_value(pressure_along(problem_, row, normal_forces), {face.pressure_MPa.value});
+      if (largest.value > face.pressure_MPa.value)
+        face.pressure_MPa = {largest.value, at(row, largest.s)};
+      if (is_second) continue;
+      const double whole = length(row);
+      for (int p = first; p < first + n; ++p) {
         face.normal_N += F_C_(m * p);
         if (m == 2) face.tangential_N += F_C_(m * p + 1);
         const ContactState state = states_[static_cast<std::size_t>(p)];
@@ -158,10 +163,6 @@ class PartReader {
       }
       face.length_mm += whole;
       face.force_N += force_on(row);
-      const LargestValue largest =
-          largest_value(pressure_along(problem_, row, normal_forces), {face.pressure_MPa.value});
-      if (largest.value > face.pressure_MPa.value)
-        face.pressure_MPa = {largest.value, at(row, largest.s)};
     }
     std::vector<FaceAnswer> list;
     for (auto& [name, face] : faces) list.push_back(std::move(face));

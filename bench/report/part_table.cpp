@@ -18,7 +18,7 @@ std::string number(double value) { return fmt::format("{:.5g}", value); }
 std::string place(const Json& x) {
   return fmt::format("({:.5g}, {:.5g})", x[0].get<double>(), x[1].get<double>());
 }
-// Less than the rounding of the largest force is none.
+// What is small next to the largest force is the solver's rounding.
 class Forces {
  public:
   explicit Forces(const Json& part) {
@@ -28,7 +28,7 @@ class Forces {
           largest_ = std::max(largest_, std::abs(component.get<double>()));
   }
   std::string text(double force) const {
-    constexpr double rounding = 1e-9;
+    constexpr double rounding = 1e-6;
     return number(std::abs(force) <= rounding * largest_ ? 0 : force);
   }
   std::string both(const Json& of) const {
