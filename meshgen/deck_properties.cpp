@@ -64,7 +64,7 @@ constexpr auto read_values = std::to_array<ReadValues>({
     {"DSLOAD", "OP", "MOD,NEW"},
 });
 // They change nothing in what is solved here.
-constexpr Words<31> idle_keywords = {"OUTPUT",
+constexpr Words<30> idle_keywords = {"OUTPUT",
                                      "NODE OUTPUT",
                                      "ELEMENT OUTPUT",
                                      "CONTACT OUTPUT",
@@ -89,7 +89,6 @@ constexpr Words<31> idle_keywords = {"OUTPUT",
                                      "CONTROLS",
                                      "CONTACT CONTROLS",
                                      "SOLUTION TECHNIQUE",
-                                     "PARAMETER",
                                      "PHYSICAL CONSTANTS",
                                      "EXPANSION",
                                      "CONDUCTIVITY",
@@ -173,6 +172,8 @@ class PropertyReader {
         continue;
       }
       if (contains(idle_keywords, block.keyword)) {
+        if (block.keyword == "RESTART" && block.has("READ"))
+          block.line.fail("*RESTART, READ (allowed: a deck that begins from nothing)");
         unused.emplace(block.keyword, block.line.place);
         continue;
       }

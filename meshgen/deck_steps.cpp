@@ -197,8 +197,11 @@ class StepReader {
                             block.keyword == "DLOAD" ? "P1 to P4, GRAV" : "P"));
     std::vector<DeckEdge> edges;
     if (is_of_side) {
-      for (const long element : deck_.members(deck_.element_sets, fields[0], block, line))
+      for (const long element : deck_.members(deck_.element_sets, fields[0], block, line)) {
         edges.push_back(deck_.side(element, kind, line));
+        if (deck_.elements.at(element).is_shell)
+          line.fail(fmt::format("*DLOAD, {} of a shell (allowed: *DSLOAD on its edges)", kind));
+      }
     } else {
       const auto& of_surface =
           deck_.surfaces.at(deck_.face(deck_.full_name(fields[0], block), line));

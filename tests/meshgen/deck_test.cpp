@@ -289,6 +289,7 @@ TEST_F(Decks, WhatWouldBeAnotherProblemIsRefused) {
            {"*BOUNDARY\n", "*BOUNDARY, AMPLITUDE=a\n", "AMPLITUDE=a: no such *AMPLITUDE"},
            {"*END STEP", "", "the last *STEP has no *END STEP"},
            {"*STEP\n", "*STEP, RIKS\n", "*STEP, RIKS (allowed: NLGEOM"},
+           {"*STEP\n", "*RESTART, READ, STEP=2\n*STEP\n", "*RESTART, READ"},
            {"*STATIC\n", "*STATIC, STABILIZE\n", "*STATIC, STABILIZE"},
            {"*BOUNDARY\n", "*BOUNDARY, FIXED\n", "*BOUNDARY, FIXED"},
            {"*BOUNDARY\n", "*BOUNDARY, TYPE=VELOCITY\n", "*BOUNDARY, TYPE=VELOCITY"},
