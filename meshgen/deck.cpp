@@ -86,7 +86,7 @@ class DeckReader {
     for (Deck::Sets* sets : {&deck_.node_sets, &deck_.element_sets})
       for (auto& [name, members] : *sets) {
         std::ranges::sort(members);
-        members.erase(std::ranges::unique(members).begin(), members.end());
+        members.erase(std::unique(members.begin(), members.end()), members.end());
       }
     each("SURFACE", [&](const DeckBlock& b, const DeckLine& line) { add_to_surface(b, line); });
     set_boundary();
@@ -385,10 +385,11 @@ std::string msh_of(const Deck& deck, const std::map<DeckEdge, int>& curve) {
   };
   std::string names, nodes, lines;
   std::size_t count = 0;
-  for (const auto& [edge, number] : curve) {
+  for (const auto& entry : curve) {
+    const DeckEdge& edge = entry.first;
     const auto found = deck.names.find(edge);
     const auto add = [&](int group) {
-      lines += fmt::format("{} 1 2 {} {} {} {}\n", ++count, group, number, edge[0], edge[1]);
+      lines += fmt::format("{} 1 2 {} {} {} {}\n", ++count, group, entry.second, edge[0], edge[1]);
     };
     if (found == deck.names.end())
       add(0);

@@ -225,7 +225,8 @@ class SceneReader {
   void label_edges() {
     std::map<std::string, std::string> label_of;  // by what is prescribed in all steps
     std::set<std::string> taken;
-    for (const auto& [edge, element] : deck_.boundary) {
+    for (const auto& entry : deck_.boundary) {
+      const DeckEdge& edge = entry.first;
       const std::string face = face_of(edge);
       std::string key;
       const EdgeState first = state_on(0, edge);
