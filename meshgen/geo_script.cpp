@@ -329,6 +329,11 @@ bool has_unknown_words(const std::vector<Token>& tokens, const GeoScript& script
   return false;
 }
 
+constexpr std::array<std::string_view, 5> writers = {"Save", "Print", "CreateDir", "Plugin",
+                                                     "OnelabRun"};
+constexpr std::array<std::string_view, 5> starters = {"SystemCall", "NonBlockingSystemCall",
+                                                      "System", "OnelabRun", "ExternalProcess"};
+
 // The names that a definition list [a = …, b = {…}] gives values to; returns the index behind it.
 std::size_t read_definitions(const std::vector<Token>& tokens, std::size_t at, GeoScript& script) {
   int depth = 0;
@@ -366,6 +371,8 @@ void read_into(GeoScript& script, const std::filesystem::path& file, const std::
   for (std::size_t at = 0; at + 1 < tokens.size(); ++at) {
     const Token &token = tokens[at], &next = tokens[at + 1];
     if (is_one_of(token, outside)) script.is_self_contained = false;
+    script.may_write |= is_one_of(token, writers);
+    script.may_start_programs |= is_one_of(token, starters);
     if (token.is("ExternalProcess")) script.has_external_process = true;
     if (token.is("Name") && next.kind == Token::literal) script.onelab_names.insert(next.text);
     if (token.is("DefineConstant") && next.is("[")) read_definitions(tokens, at + 1, script);

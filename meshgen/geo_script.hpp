@@ -18,8 +18,8 @@ struct GeoScript {
   bool is_self_contained = true;
   // Some word of theirs may read a file, or depend on time or chance, for all that is known of it.
   bool has_unknown_words = false;
-  bool may_write = false;             // Printf("…") > "file"
-  bool has_external_process = false;  // a size field that a program computes
+  bool may_write = false, may_start_programs = false;  // by its words, if it comes to them
+  bool has_external_process = false;                   // a size field that a program computes
 };
 
 // Throws FileError: the file cannot be read.

@@ -25,9 +25,10 @@ struct Attempt {
   bool is_crash() const { return end.signal != 0 && end.signal != SIGKILL; }
 };
 
-void refuse_if_it_needs_confinement(const std::filesystem::path& model) {
+void refuse_if_it_needs_confinement(const std::filesystem::path& model, bool writes_here,
+                                    bool starts_none) {
   const GeoScript script = what_is_read(model);
-  if (script.has_unknown_words || script.may_write)
+  if ((!writes_here && script.may_write) || (!starts_none && script.may_start_programs))
     throw FileError(
         model.string() +
         ": this kernel (or container) cannot keep it from writing files and starting "
@@ -45,7 +46,7 @@ Attempt attempt(const std::filesystem::path& model, const std::filesystem::path&
     const auto begin = [&](int algorithm) { channel.send(std::to_string(algorithm)); };
     const auto confined = [&] {
       const bool writes_here = write_only_in(scratch), starts_none = start_no_programs();
-      if (!writes_here || !starts_none) refuse_if_it_needs_confinement(model);
+      refuse_if_it_needs_confinement(model, writes_here, starts_none);
       work(begin);
       return 0;
     };
