@@ -20,9 +20,6 @@ Amplitudes read_amplitudes(const Deck& deck) {
   Amplitudes amplitudes;
   for (const DeckBlock& block : deck.file.blocks) {
     if (block.keyword != "AMPLITUDE") continue;
-    const std::string definition = in_capitals(block.value("DEFINITION"));
-    if (!definition.empty() && definition != "TABULAR")
-      block.line.fail(fmt::format("DEFINITION={} (allowed: TABULAR)", definition));
     Amplitude& points = amplitudes[block.value("NAME")];
     for (const DeckLine& line : block.data) {
       const std::vector<std::string> fields = line.fields();
@@ -46,7 +43,7 @@ double factor_of(const DeckBlock& block, const Amplitudes& amplitudes, double du
   if (known == amplitudes.end() || known->second.empty())
     block.line.fail(fmt::format("AMPLITUDE={}: no such *AMPLITUDE", block.value("AMPLITUDE")));
   const Amplitude& points = known->second;
-  double value = duration <= points.front()[0] ? points.front()[1] : points.back()[1];
+  double value = points.back()[1];
   for (std::size_t k = 1; k < points.size(); ++k) {
     const auto [before, start] = points[k - 1];
     const auto [after, end] = points[k];

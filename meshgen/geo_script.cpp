@@ -12,6 +12,7 @@
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
 #include "support/gzip.hpp"
+#include "support/lists.hpp"
 
 namespace airybench {
 namespace {
@@ -61,217 +62,65 @@ bool is_one_of(const Token& token, const auto& words) {
 
 constexpr std::array<std::string_view, 2> readers = {"Include", "Merge"};  // "file";
 // What else can make the outcome another than that of the files.
-constexpr auto outside = std::to_array<std::string_view>(
-    {"MergeFile", "ShapeFromFile", "FileExists", "FileName", "GetEnv", "GetNumber", "GetString",
-     "OnelabRun", "ExternalProcess", "CommandLine", "Rand", "Cpu", "Memory", "TotalMemory", "Today",
-     "System", "SystemCall", "NonBlockingSystemCall"});
+constexpr auto outside = std::to_array<std::string_view>({"MergeFile",
+                                                          "MergeWithBoundingBox",
+                                                          "ListFromFile",
+                                                          "ShapeFromFile",
+                                                          "FileExists",
+                                                          "FileName",
+                                                          "GetEnv",
+                                                          "GetNumber",
+                                                          "GetString",
+                                                          "OnelabRun",
+                                                          "ExternalProcess",
+                                                          "CommandLine",
+                                                          "Rand",
+                                                          "Cpu",
+                                                          "Memory",
+                                                          "TotalMemory",
+                                                          "Today",
+                                                          "System",
+                                                          "SystemCall",
+                                                          "NonBlockingSystemCall"});
+
+constexpr std::array<std::string_view, 5> writers = {"Save", "Print", "CreateDir", "Plugin",
+                                                     "OnelabRun"};
+constexpr std::array<std::string_view, 5> starters = {"SystemCall", "NonBlockingSystemCall",
+                                                      "System", "OnelabRun", "ExternalProcess"};
 
 // Words of Gmsh that read nothing and give the same each time. After a dot only these are known.
-const std::set<std::string_view> harmless = {"Abs",
-                                             "Acos",
-                                             "Affine",
-                                             "Algorithm",
-                                             "Alternate",
-                                             "Asin",
-                                             "Atan",
-                                             "Atan2",
-                                             "Attractor",
-                                             "AutoCoherence",
-                                             "BSpline",
-                                             "Background",
-                                             "Ball",
-                                             "Beta",
-                                             "Bezier",
-                                             "BooleanDifference",
-                                             "BooleanFragments",
-                                             "BooleanIntersection",
-                                             "BooleanUnion",
-                                             "Boundary",
-                                             "BoundingBox",
-                                             "Box",
-                                             "Bump",
-                                             "Call",
-                                             "Ceil",
-                                             "Chamfer",
-                                             "Characteristic",
-                                             "CharacteristicLengthExtendFromBoundary",
-                                             "CharacteristicLengthFactor",
-                                             "CharacteristicLengthFromCurvature",
-                                             "CharacteristicLengthFromPoints",
-                                             "CharacteristicLengthMax",
-                                             "CharacteristicLengthMin",
-                                             "Choices",
-                                             "Circle",
-                                             "Closed",
-                                             "Coherence",
-                                             "CombinedBoundary",
-                                             "Compound",
-                                             "Cone",
-                                             "Constant",
-                                             "Cos",
-                                             "Cosh",
-                                             "Curve",
-                                             "CurvesList",
-                                             "Cylinder",
-                                             "DefineConstant",
-                                             "DefineNumber",
-                                             "Delete",
-                                             "Dilate",
-                                             "Disk",
-                                             "DistMax",
-                                             "DistMin",
-                                             "Distance",
-                                             "Duplicata",
-                                             "EdgesList",
-                                             "ElementOrder",
-                                             "Ellipse",
-                                             "Else",
-                                             "ElseIf",
-                                             "Embed",
-                                             "EndFor",
-                                             "EndIf",
-                                             "Error",
-                                             "Exp",
-                                             "Extrude",
-                                             "F",
-                                             "Fabs",
-                                             "FacesList",
-                                             "Field",
-                                             "FieldsList",
-                                             "Fillet",
-                                             "Filling",
-                                             "Floor",
-                                             "Fmod",
-                                             "For",
-                                             "Function",
-                                             "General",
-                                             "Geometry",
-                                             "Hide",
-                                             "Hypot",
-                                             "IField",
-                                             "If",
-                                             "In",
-                                             "InField",
-                                             "Include",
-                                             "Label",
-                                             "Layers",
-                                             "LcMax",
-                                             "LcMin",
-                                             "Left",
-                                             "Length",
-                                             "LinSpace",
-                                             "Line",
-                                             "Log",
-                                             "Log10",
-                                             "LogSpace",
-                                             "Loop",
-                                             "Macro",
-                                             "MathEval",
-                                             "Max",
-                                             "Merge",
-                                             "Mesh",
-                                             "MeshSize",
-                                             "MeshSizeExtendFromBoundary",
-                                             "MeshSizeFactor",
-                                             "MeshSizeFromCurvature",
-                                             "MeshSizeFromPoints",
-                                             "MeshSizeMax",
-                                             "MeshSizeMin",
-                                             "Min",
-                                             "Modulo",
-                                             "MshFileVersion",
-                                             "NNodesByEdge",
-                                             "Name",
-                                             "NodesList",
-                                             "OCCBooleanPreserveNumbering",
-                                             "OldNewReg",
-                                             "Optimize",
-                                             "Periodic",
-                                             "Physical",
-                                             "Pi",
-                                             "Plane",
-                                             "Point",
-                                             "PointsList",
-                                             "PointsOf",
-                                             "Printf",
-                                             "Progression",
-                                             "Radius",
-                                             "RandomFactor",
-                                             "Range",
-                                             "ReadOnly",
-                                             "RecombinationAlgorithm",
-                                             "Recombine",
-                                             "RecombineAll",
-                                             "Rectangle",
-                                             "Restrict",
-                                             "Return",
-                                             "Reverse",
-                                             "Right",
-                                             "Rotate",
-                                             "Round",
-                                             "Ruled",
-                                             "Sampling",
-                                             "SaveAll",
-                                             "ScalingFactor",
-                                             "SecondOrderLinear",
-                                             "SetFactory",
-                                             "Show",
-                                             "Sigmoid",
-                                             "Sin",
-                                             "Sinh",
-                                             "SizeMax",
-                                             "SizeMin",
-                                             "Smoothing",
-                                             "Sphere",
-                                             "Spline",
-                                             "Sprintf",
-                                             "Sqrt",
-                                             "Step",
-                                             "StopAtDistMax",
-                                             "Str",
-                                             "StrCat",
-                                             "SubdivisionAlgorithm",
-                                             "Surface",
-                                             "SurfacesList",
-                                             "Symmetry",
-                                             "Tan",
-                                             "Tanh",
-                                             "Terminal",
-                                             "Thickness",
-                                             "Threshold",
-                                             "Tolerance",
-                                             "Torus",
-                                             "Transfinite",
-                                             "Translate",
-                                             "Unique",
-                                             "Using",
-                                             "VIn",
-                                             "VOut",
-                                             "Verbosity",
-                                             "Visible",
-                                             "Volume",
-                                             "Warning",
-                                             "Wedge",
-                                             "Wire",
-                                             "XCenter",
-                                             "XMax",
-                                             "XMin",
-                                             "YCenter",
-                                             "YMax",
-                                             "YMin",
-                                             "ZCenter",
-                                             "ZMax",
-                                             "ZMin",
-                                             "newc",
-                                             "newcl",
-                                             "newf",
-                                             "newl",
-                                             "newll",
-                                             "newp",
-                                             "newreg",
-                                             "news",
-                                             "newsl",
-                                             "newv"};
+constexpr const char* harmless_words =
+    "Abs Acos Affine Algorithm Alternate Asin Atan Atan2 Attractor AutoCoherence BSpline "
+    "Background Ball Beta Bezier BooleanDifference BooleanFragments BooleanIntersection "
+    "BooleanUnion Boundary BoundingBox Box Bump Call Ceil Chamfer Characteristic "
+    "CharacteristicLengthExtendFromBoundary CharacteristicLengthFactor "
+    "CharacteristicLengthFromCurvature CharacteristicLengthFromPoints "
+    "CharacteristicLengthMax CharacteristicLengthMin Choices Circle Closed Coherence "
+    "CombinedBoundary Compound Cone Constant Cos Cosh Curve CurvesList Cylinder "
+    "DefineConstant DefineNumber Delete Dilate Disk DistMax DistMin Distance Duplicata "
+    "EdgesList ElementOrder Ellipse Else ElseIf Embed EndFor EndIf Error Exp Extrude F Fabs "
+    "FacesList Field FieldsList Fillet Filling Floor Fmod For Function General Geometry Hide "
+    "Hypot IField If In InField Include Label Layers LcMax LcMin Left Length LinSpace Line "
+    "Log Log10 LogSpace Loop Macro MathEval Max Merge Mesh MeshSize "
+    "MeshSizeExtendFromBoundary MeshSizeFactor MeshSizeFromCurvature MeshSizeFromPoints "
+    "MeshSizeMax MeshSizeMin Min Modulo MshFileVersion NNodesByEdge Name NodesList "
+    "OCCBooleanPreserveNumbering OldNewReg Optimize Periodic Physical Pi Plane Point "
+    "PointsList PointsOf Printf Progression Radius RandomFactor Range ReadOnly "
+    "RecombinationAlgorithm Recombine RecombineAll Rectangle Restrict Return Reverse Right "
+    "Rotate Round Ruled Sampling SaveAll ScalingFactor SecondOrderLinear SetFactory Show "
+    "Sigmoid Sin Sinh SizeMax SizeMin Smoothing Sphere Spline Sprintf Sqrt Step "
+    "StopAtDistMax Str StrCat SubdivisionAlgorithm Surface SurfacesList Symmetry Tan Tanh "
+    "Terminal Thickness Threshold Tolerance Torus Transfinite Translate Unique Using VIn "
+    "VOut Verbosity Visible Volume Warning Wedge Wire XCenter XMax XMin YCenter YMax YMin "
+    "ZCenter ZMax ZMin newc newcl newf newl newll newp newreg news newsl newv";
+
+const std::set<std::string>& harmless() {
+  static const std::set<std::string> words = [] {
+    const std::vector<std::string> list = split_list(harmless_words, ' ');
+    return std::set<std::string>(list.begin(), list.end());
+  }();
+  return words;
+}
 
 bool is_definition(const std::vector<Token>& tokens, std::size_t at) {
   std::size_t next = at + 1;
@@ -296,27 +145,8 @@ bool has_unknown_words(const std::vector<Token>& tokens, const GeoScript& script
                      tokens[at - 1].is("Function")))))
       own.insert(tokens[at].text);
   // A script may call them in spite of a definition that Gmsh never comes to.
-  for (const std::string_view command : {"SystemCall",
-                                         "NonBlockingSystemCall",
-                                         "System",
-                                         "OnelabRun",
-                                         "Save",
-                                         "Print",
-                                         "Plugin",
-                                         "CreateDir",
-                                         "Exit",
-                                         "Abort",
-                                         "ListFromFile",
-                                         "MergeFile",
-                                         "MergeWithBoundingBox",
-                                         "ShapeFromFile",
-                                         "FileExists",
-                                         "GetEnv",
-                                         "Rand",
-                                         "Cpu",
-                                         "Memory",
-                                         "Today"})
-    own.erase(command);
+  for (const std::string_view command : outside) own.erase(command);
+  for (const std::string_view command : writers) own.erase(command);
   for (std::size_t at = 0; at < tokens.size(); ++at) {
     const Token& token = tokens[at];
     if (token.kind == Token::literal && token.text.find_first_of("\\\n") != std::string::npos)
@@ -324,15 +154,10 @@ bool has_unknown_words(const std::vector<Token>& tokens, const GeoScript& script
     if (token.kind != Token::word || std::isdigit(static_cast<unsigned char>(token.text.front())))
       continue;
     const bool is_member = at > 0 && tokens[at - 1].is(".");
-    if (!harmless.contains(token.text) && (is_member || !own.contains(token.text))) return true;
+    if (!harmless().contains(token.text) && (is_member || !own.contains(token.text))) return true;
   }
   return false;
 }
-
-constexpr std::array<std::string_view, 5> writers = {"Save", "Print", "CreateDir", "Plugin",
-                                                     "OnelabRun"};
-constexpr std::array<std::string_view, 5> starters = {"SystemCall", "NonBlockingSystemCall",
-                                                      "System", "OnelabRun", "ExternalProcess"};
 
 // The names that a definition list [a = …, b = {…}] gives values to; returns the index behind it.
 std::size_t read_definitions(const std::vector<Token>& tokens, std::size_t at, GeoScript& script) {

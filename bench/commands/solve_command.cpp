@@ -43,7 +43,7 @@ Examples
 
 enum class Quantity { energy, force, pressure };
 struct Goal {
-  double error;
+  double error = 0;
   Quantity of = Quantity::energy;
 };
 
@@ -61,7 +61,7 @@ Goal goal_of(const std::string& text) {
                   shortened(text)));
 }
 
-Options parse_solve(int argc, const char* const* argv, std::optional<Goal>& goal) {
+Options parse_solve(int argc, const char* const* argv, Goal& goal) {
   Options options;
   options.output.folder = "results/solve";
   options.limits.repetitions = 1;
@@ -87,7 +87,7 @@ Options parse_solve(int argc, const char* const* argv, std::optional<Goal>& goal
   parse_command_line(app, argc, argv);
   if (!scene.empty()) options.run.scenes = {scene};
   goal = goal_of(error);
-  options.run.adapt.goals = {{.error = goal->error, .unknowns = {}}};
+  options.run.adapt.goals = {{.error = goal.error, .unknowns = {}}};
   read_degree(degree, false, options.run);
   return options;
 }
@@ -164,14 +164,14 @@ std::optional<Solved> solved(const PosedScene& start, Options options, const Goa
 }  // namespace
 
 int solve_command(int argc, const char* const* argv) {
-  std::optional<Goal> goal;
+  Goal goal;
   const Options options = parse_solve(argc, argv, goal);
   check_takes_records(options.output.folder);
   catch_interrupts();
   const PosedScene start = one_posed_scene(options);
   make_folder(options.output.folder);
   set_threads(options.run.cases.threads);
-  const std::optional<Solved> answer = solved(start, options, *goal);
+  const std::optional<Solved> answer = solved(start, options, goal);
   if (!answer) return some_case_failed;
   const Record& record = answer->record;
   const std::filesystem::path fields = options.output.folder / "fields" / name_of(record).file();
@@ -181,10 +181,10 @@ int solve_command(int argc, const char* const* argv) {
                         ? json_of_file(of_part.string(), file_text(of_part))
                         : Json();
   fmt::print("\n{}\n{}", assumptions_of(*start.body()), part_table(record, part));
-  const std::optional<double> width = reached(record, goal->of);
-  const bool is_met = width && *width <= goal->error && record.status == Status::ok;
+  const std::optional<double> width = reached(record, goal.of);
+  const bool is_met = width && *width <= goal.error && record.status == Status::ok;
   if (!is_met && record.status == Status::ok)
-    fmt::print("note: the error asked for, {:g} %, is not met: {}\n", 100 * goal->error,
+    fmt::print("note: the error asked for, {:g} %, is not met: {}\n", 100 * goal.error,
                width ? fmt::format("{:.3g} %", 100 * *width) : "this quantity has no interval");
   if (!part.is_null()) fmt::print("faces: {}.faces.csv\n", fields.string());
   end_run(answer->result, options.output.folder, true);
