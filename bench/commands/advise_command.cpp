@@ -136,7 +136,7 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
   const double n_phi = unknowns_after(coarse, fine, 1 + more);
   if (more < 1 || !(n_phi < most_unknowns)) return {};
   Record forecast;
-  forecast.status = Status::ok;
+  forecast.conclude({Status::ok, ""});
   const std::string mesh = coarse.mesh.substr(0, coarse.mesh.rfind('+'));
   forecast.mesh = fmt::format("{}+refine{:g}", mesh, 1 + more);
   forecast.method = fine.method;
@@ -193,7 +193,7 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Limits& limits, dou
     Record& row = rows.emplace_back(Advice{planned[k], why, ""}).record;
     row.adapt_time_s.reset();
     if (expected[k].time_s) row.time_s = expected[k].time_s->value;
-    row.status = Status::skipped;
+    row.conclude({Status::skipped, ""});
   }
   std::size_t k = 0;
   std::erase_if(plan, [&](const Case&) { return !stays[k++]; });

@@ -107,36 +107,50 @@ std::optional<Verification> Judge::verify_as_other_solution(const DualSystem& sy
   }
 }
 
-void Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps, const Solution& solution,
-                  Record& record) {
+Verdict Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps,
+                     const Solution& solution, Verdict own, Record& record) {
+  const Method& method = asked.method;
   take_over(steps.back().seen(), record);
   record.answer_hash = answer_hash(steps.back().seen());
-  if (record.status == Status::ok) judge_method_error(asked, steps, solution, record);
-  if (record.status == Status::ok && solution.program)
-    judge_penetration(steps, solution.program->allowed_penetration, record);
-  if (problem_) judge_discretisation(asked.method, steps, solution, record);
+  Verdict verdict = std::move(own);
+  const auto is_ok = [&] { return verdict.status == Status::ok; };
+  if (is_ok()) verdict = judge_method_error(asked, steps, solution, std::move(verdict), record);
+  if (is_ok() && solution.program)
+    verdict = judge_penetration(steps, solution.program->allowed_penetration, std::move(verdict));
+  if (!problem_) return verdict;
+  if (!method.in_displacements || !solution.program) {
+    note_discretisation(method, record);
+  } else if (reference(1) == nullptr) {
+    return {has_answer(verdict.status) ? Status::inaccurate : verdict.status,
+            "its error is not known: " + references(1).missing};
+  } else {
+    note_error_of_displacement(steps, record);
+  }
+  const Json* const halves = half_steps(method.degree);
+  if (halves != nullptr) record.steps_in_halves = *halves;
+  if (is_ok()) verdict = judge_total_error(method, std::move(verdict), record);
+  if (is_ok() && halves != nullptr && !method.in_displacements)
+    for (const std::string& remark : remarks_on_half_steps(record)) verdict.add(remark);
+  return verdict;
 }
 
-void Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
-                              Record& record) const {
+Verdict Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
+                                 Verdict so_far) const {
   const auto worst = std::ranges::max_element(
       steps, {}, [](const JudgedStep& step) { return step.seen().penetration_share.value_or(0); });
   const Verification& v = worst->seen();
-  if (!(v.penetration_share > allowed)) return;
-  record.status = Status::inaccurate;
-  record.status_reason = fmt::format(
-      "{}penetrates the {} by {:.2g} mm, {:.3g} % of the largest displacement; allowed {:g} %",
-      prefix_of(worst - steps.begin()), obstacle_of(*problem_), *v.penetration_mm,
-      100 * *v.penetration_share, 100 * allowed);
+  if (!(v.penetration_share > allowed)) return so_far;
+  return {
+      Status::inaccurate,
+      fmt::format(
+          "{}penetrates the {} by {:.2g} mm, {:.3g} % of the largest displacement; allowed {:g} %",
+          prefix_of(worst - steps.begin()), obstacle_of(*problem_), *v.penetration_mm,
+          100 * *v.penetration_share, 100 * allowed)};
 }
 
-void Judge::judge_method_error(const Case& asked, const std::vector<JudgedStep>& steps,
-                               const Solution& solution, Record& record) {
+Verdict Judge::judge_method_error(const Case& asked, const std::vector<JudgedStep>& steps,
+                                  const Solution& solution, Verdict so_far, Record& record) {
   const Method& method = asked.method;
-  const auto give = [&](Status status, const std::string& reason) {
-    record.status = status;
-    record.status_reason = reason;
-  };
   const Verification& v = steps.back().seen();
   // A path may end unloaded.
   const bool is_unstressed =
@@ -146,33 +160,35 @@ void Judge::judge_method_error(const Case& asked, const std::vector<JudgedStep>&
   const auto other =
       std::ranges::find_if(steps, [](const JudgedStep& step) { return step.as_other.has_value(); });
   const double target = asked.settings.target_error;
-  if (!(worst.value <= target)) {
-    give(Status::inaccurate,
-         fmt::format("{}{} {:.2e} is above the target {:.0e}",
-                     prefix_of(static_cast<std::int64_t>(at)), worst.name, worst.value, target));
-  } else if (other != steps.end()) {
+  if (!(worst.value <= target))
+    return {Status::inaccurate,
+            fmt::format("{}{} {:.2e} is above the target {:.0e}",
+                        prefix_of(static_cast<std::int64_t>(at)), worst.name, worst.value, target)};
+  if (other != steps.end()) {
     record.other_solution = true;
-    give(Status::ok, fmt::format("{}another solution than the reference's, {:.1e} of its stress "
-                                 "away; errors are to this one",
-                                 prefix_of(other - steps.begin()),
-                                 other->verification.error_stress.value_or(0)));
-  } else if (v.stress_of_moments_off && is_too_large_for_reference() && record.error_estimate) {
-    give(Status::ok,
-         fmt::format("{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law "
-                     "and that its stresses are those of its displacements are checked",
-                     references(method.degree).missing, *record.error_estimate));
-  } else if (!v.error_stress && !method.in_displacements && problem_) {
-    give(Status::inaccurate, "its error is not known: " + references(method.degree).missing);
-  } else if (is_unstressed) {
-    give(Status::unstressed, method.in_displacements
-                                 ? "its displacements have no stress: nothing touches or loads "
-                                   "what is free of them"
-                                 : "the body has no stress: nothing touches or loads it" +
-                                       words_of_least_gap(*problem_));
-  } else if (problem_) {
-    note_what_is_idle(*problem_, record);
-    note_large_strains(*problem_, solution.stress, record);
+    return {Status::ok, fmt::format("{}another solution than the reference's, {:.1e} of its stress "
+                                    "away; errors are to this one",
+                                    prefix_of(other - steps.begin()),
+                                    other->verification.error_stress.value_or(0))};
   }
+  if (v.stress_of_moments_off && is_too_large_for_reference() && record.error_estimate)
+    return {Status::ok,
+            fmt::format("{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law "
+                        "and that its stresses are those of its displacements are checked",
+                        references(method.degree).missing, *record.error_estimate)};
+  if (!v.error_stress && !method.in_displacements && problem_)
+    return {Status::inaccurate, "its error is not known: " + references(method.degree).missing};
+  if (is_unstressed)
+    return {Status::unstressed, method.in_displacements
+                                    ? "its displacements have no stress: nothing touches or loads "
+                                      "what is free of them"
+                                    : "the body has no stress: nothing touches or loads it" +
+                                          words_of_least_gap(*problem_)};
+  if (problem_) {
+    for (const std::string& remark : remarks_on_what_is_idle(*problem_, v)) so_far.add(remark);
+    so_far.add(remark_on_large_strains(*problem_, solution.stress));
+  }
+  return so_far;
 }
 
 }  // namespace airybench

@@ -34,9 +34,9 @@ class Judge {
   JudgedStep judged(const std::vector<JudgedStep>& before, const DualSystem& system,
                     const Solution& solution);
   JudgedStep judged(const AssembledBlocks& blocks, const Solution& solution);  // without a path
-  // The status may become worse; steps: of the whole path.
-  void judge(const Case& asked, const std::vector<JudgedStep>& steps, const Solution& solution,
-             Record& record);
+  // own: the method's. Fills the record's errors; steps: of the whole path.
+  Verdict judge(const Case& asked, const std::vector<JudgedStep>& steps, const Solution& solution,
+                Verdict own, Record& record);
   void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
                        const Record& record, const std::filesystem::path& file);
 
@@ -69,22 +69,23 @@ class Judge {
   std::optional<Verification> verify_as_other_solution(const DualSystem& system,
                                                        const Solution& solution,
                                                        const Verification& v, double start_off_N);
+  // Each is asked of an answer that is ok so far.
+  Verdict judge_method_error(const Case& asked, const std::vector<JudgedStep>& steps,
+                             const Solution& solution, Verdict so_far, Record& record);
   // Of an external program: through the wall by more than it is allowed is inaccurate.
-  void judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
-                         Record& record) const;
-  void judge_method_error(const Case& asked, const std::vector<JudgedStep>& steps,
-                          const Solution& solution, Record& record);
+  Verdict judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
+                            Verdict so_far) const;
+  // An error of 100 % is not ok.
+  Verdict judge_total_error(const Method& method, Verdict so_far, const Record& record) const;
 
   std::optional<Bound> bound_for(const Method& method) const;  // none: it has its own
   bool wants_intervals(int degree) const;
   // Null: stresses or displacements are missing.
   const Discretisation* discretisation(Bound bound, int degree);
   std::optional<Discretisation> compute_discretisation(Bound bound, int degree);
-  void judge_discretisation(const Method& method, const std::vector<JudgedStep>& steps,
-                            const Solution& solution, Record& record);
   void note_discretisation(const Method& method, Record& record);
   std::string prefix_of_largest(const Record& record) const;
-  // For an external program: its displacements, made admissible.
+  // For an external program with references: its displacements, made admissible.
   void note_error_of_displacement(const std::vector<JudgedStep>& steps, Record& record);
   // A path with friction in twice as many steps; null without such a path or a reference.
   const Json* half_steps(int degree);

@@ -131,11 +131,6 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
 }
 
 void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Record& record) {
-  if (reference(1) == nullptr) {
-    record.status = has_answer(record.status) ? Status::inaccurate : record.status;
-    record.status_reason = "its error is not known: " + references(1).missing;
-    return;
-  }
   if (std::ssize(steps) < count_of_steps(*problem_)) return;
   TotalError total;
   ConstitutiveError error;
@@ -196,28 +191,17 @@ std::string Judge::prefix_of_largest(const Record& record) const {
   return step == record.steps.end() ? "" : prefix_of(step - record.steps.begin());
 }
 
-// An error of 100 % is not ok. Gives a reason if a displacement method has no error.
-void Judge::judge_discretisation(const Method& method, const std::vector<JudgedStep>& steps,
-                                 const Solution& solution, Record& record) {
-  if (method.in_displacements && solution.program)
-    note_error_of_displacement(steps, record);
-  else
-    note_discretisation(method, record);
-  const Json* const halves = half_steps(method.degree);
-  if (halves != nullptr) record.steps_in_halves = *halves;
-  if (record.status != Status::ok) return;
-  if (is_all_error(record.error_discretisation)) {
-    record.status = Status::inaccurate;
-    record.status_reason =
-        std::isinf(*record.error_discretisation)
-            ? prefix_of_largest(record) + "it has stress, and the reference has none"
-            : fmt::format("{}its total error is {:.0f} %: nothing of it is known",
-                          prefix_of_largest(record), 100 * *record.error_discretisation);
-    return;
-  }
-  if (method.in_displacements && !record.error_discretisation && record.status_reason.empty())
-    record.status_reason = "its total error is not known: " + record.no_discretisation_error;
-  if (halves != nullptr && !record.in_displacements) note_slip_of_half_steps(record);
+Verdict Judge::judge_total_error(const Method& method, Verdict so_far, const Record& record) const {
+  if (is_all_error(record.error_discretisation))
+    return {Status::inaccurate,
+            prefix_of_largest(record) +
+                (std::isinf(*record.error_discretisation)
+                     ? "it has stress, and the reference has none"
+                     : fmt::format("its total error is {:.0f} %: nothing of it is known",
+                                   100 * *record.error_discretisation))};
+  if (method.in_displacements && !record.error_discretisation && so_far.reason.empty())
+    so_far.add("its total error is not known: " + record.no_discretisation_error);
+  return so_far;
 }
 
 void Judge::write_fields_of(const Method& method, const DualSystem& system,

@@ -18,10 +18,6 @@
 namespace airybench {
 namespace {
 
-void add_reason(const std::string& text, Record& record) {
-  record.status_reason += (record.status_reason.empty() ? "" : "; ") + text;
-}
-
 void note(const std::optional<Bracket>& bracket, std::optional<double>& low,
           std::optional<double>& high) {
   if (!bracket) return;
@@ -85,18 +81,23 @@ std::optional<std::int64_t> if_probed(std::int64_t bytes) {
 }
 
 Json to_json(const TimedRun& run) {
-  return {{"time_s", run.time_s},           {"stages", run.stages},
-          {"status", name_of(run.status)},  {"message", run.message},
-          {"signal", run.signal},           {"ended_in", run.ended_in},
-          {"runs_s", run.runs_s},           {"program_s", run.program_s},
-          {"processor_s", run.processor_s}, {"program_solve_s", run.program_solve_s}};
+  return {{"time_s", run.time_s},
+          {"stages", run.stages},
+          {"status", name_of(run.end.status)},
+          {"message", run.end.reason},
+          {"signal", run.signal},
+          {"ended_in", run.ended_in},
+          {"runs_s", run.runs_s},
+          {"program_s", run.program_s},
+          {"processor_s", run.processor_s},
+          {"program_solve_s", run.program_solve_s}};
 }
 
 TimedRun timed_run_of(const Json& json) {
   return {json.at("time_s").get<double>(),
           json.at("stages").get<std::map<std::string, double>>(),
-          status_of(json.at("status").get<std::string>()).value_or(Status::crashed),
-          json.at("message").get<std::string>(),
+          {status_of(json.at("status").get<std::string>()).value_or(Status::crashed),
+           json.at("message").get<std::string>()},
           json.at("signal").get<std::string>(),
           json.at("ended_in").get<std::string>(),
           json.at("runs_s").get<double>(),
@@ -106,9 +107,8 @@ TimedRun timed_run_of(const Json& json) {
 }
 
 bool ended_alike(const TimedRun& run, const char* which, Record& record) {
-  if (run.status == record.claimed_status) return true;
-  record.status = run.status;
-  record.status_reason = fmt::format("in a {} run: {}", which, run.message);
+  if (run.end.status == record.claimed_status) return true;
+  record.conclude({run.end.status, fmt::format("in a {} run: {}", which, run.end.reason)});
   record.signal = run.signal;
   record.ended_in = run.ended_in;
   if (!run.ended_in.empty()) record.time_so_far_s = run.time_s;
@@ -138,7 +138,6 @@ void add_run(const TimedRun& run, Record& record) {
 
 void note(const Solution& solution, Record& record) {
   take_over(solution, record);
-  record.status_reason = solution.message;
   record.claimed_status = solution.status;
   if (const std::size_t bytes = matrix_bytes(solution); bytes > 0)
     record.storage_bytes = static_cast<std::int64_t>(bytes);
@@ -174,23 +173,24 @@ std::string words_of_least_gap(const Problem& problem) {
   return fmt::format("; the least gap, before anything deforms, is {:.3g} mm", least_mm);
 }
 
-void note_what_is_idle(const Problem& problem, Record& record) {
+std::vector<std::string> remarks_on_what_is_idle(const Problem& problem, const Verification& v) {
+  std::vector<std::string> remarks;
   const MeshSizes sizes = mesh_sizes(problem.mesh);
   if (sizes.contact_edges + sizes.force_edges == 0) {
-    record.status_reason = "the whole boundary is prescribed";
+    remarks.emplace_back("the whole boundary is prescribed");
   } else if (sizes.contact_edges == 0) {
-    record.status_reason = "there is no contact boundary";
-  } else if (const std::int64_t points = record.n_open.value_or(0);
-             points > 0 && record.n_stick.value_or(0) + record.n_slip.value_or(0) == 0) {
-    record.status_reason = fmt::format("nothing touches the {}: all {} contact points are open{}",
-                                       obstacle_of(problem), points, words_of_least_gap(problem));
+    remarks.emplace_back("there is no contact boundary");
+  } else if (const int points = v.n_open.value_or(0);
+             points > 0 && v.n_stick.value_or(0) + v.n_slip.value_or(0) == 0) {
+    remarks.push_back(fmt::format("nothing touches the {}: all {} contact points are open{}",
+                                  obstacle_of(problem), points, words_of_least_gap(problem)));
   }
-  if (problem.free.motions.empty()) return;
-  if (const std::string open = words_of_open_motions(rigid_contact(problem)); !open.empty())
-    add_reason(open, record);
+  if (!problem.free.motions.empty())
+    remarks.push_back(words_of_open_motions(rigid_contact(problem)));
+  return remarks;
 }
 
-static void note_dissipation_of_half_steps(Record& record) {
+static std::string remark_on_dissipation(const Record& record) {
   constexpr double seen = 0.02;
   constexpr double min_share = 1e-3;  // of the path's largest strain energy: less is no loss
   double own = 0, halved = 0, energy = 0;
@@ -205,42 +205,39 @@ static void note_dissipation_of_half_steps(Record& record) {
   constexpr double of_rounding = 1e-9;
   for (double* sum : {&own, &halved})
     if (std::abs(*sum) < of_rounding * energy) *sum = 0;
-  if (std::abs(own - halved) > seen * std::max({own, halved, min_share * energy}))
-    add_reason(
-        fmt::format("with every load step in two halves friction dissipates {:.3g} N mm, not "
-                    "{:.3g}",
-                    halved, own),
-        record);
+  if (!(std::abs(own - halved) > seen * std::max({own, halved, min_share * energy}))) return "";
+  return fmt::format(
+      "with every load step in two halves friction dissipates {:.3g} N mm, not {:.3g}", halved,
+      own);
 }
 
-void note_slip_of_half_steps(Record& record) {
+std::vector<std::string> remarks_on_half_steps(const Record& record) {
   const bool all_ok = std::ranges::all_of(record.steps_in_halves, [](const Json& step) {
     return step.at("claimed_status") == name_of(Status::ok);
   });
   if (record.steps_in_halves.size() != record.steps.size() || !all_ok)
-    return add_reason("with every load step in two halves there is no answer to compare with",
-                      record);
-  note_dissipation_of_half_steps(record);
+    return {"with every load step in two halves there is no answer to compare with"};
+  std::vector<std::string> remarks = {remark_on_dissipation(record)};
   const std::vector<StepChange> changes = changes_in_halves(record);
   const auto differs = std::ranges::count_if(changes, &StepChange::is_seen);
-  if (differs == 0) return;
+  if (differs == 0) return remarks;
   const auto worst = std::ranges::max_element(changes, {}, [](const StepChange& change) {
     return std::pair(change.points, change.of_force);
   });
   const auto& [points, of_force, F, F_halved] = *worst;
   const std::size_t k = worst - changes.begin();
   const Json &step = record.steps[k], &halved = record.steps_in_halves[k];
-  add_reason(
+  remarks.push_back(
       fmt::format("with every load step in two halves {} of {} steps end otherwise, step {} most: "
                   "{} points stick and {} slip, not {} and {}; F = ({:.5g}, {:.5g}) N, not "
                   "({:.5g}, {:.5g})",
                   differs, changes.size(), k + 1, halved.at("n_stick").get<int>(),
                   halved.at("n_slip").get<int>(), step.at("n_stick").get<int>(),
-                  step.at("n_slip").get<int>(), F_halved.x(), F_halved.y(), F.x(), F.y()),
-      record);
+                  step.at("n_slip").get<int>(), F_halved.x(), F_halved.y(), F.x(), F.y()));
+  return remarks;
 }
 
-void note_large_strains(const Problem& problem, const StressField& stress, Record& record) {
+std::string remark_on_large_strains(const Problem& problem, const StressField& stress) {
   constexpr double largest_small = 0.1;
   double largest = 0;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
@@ -250,12 +247,10 @@ void note_large_strains(const Problem& problem, const StressField& stress, Recor
                  radius = std::hypot((strain(0) - strain(1)) / 2, strain(2) / 2);
     largest = std::max(largest, std::abs(middle) + radius);
   }
-  if (largest > largest_small)
-    add_reason(
-        fmt::format(
-            "strains of up to {:.2g} %: small strains, which all of this assumes, do not hold",
-            100 * largest),
-        record);
+  if (!(largest > largest_small)) return "";
+  return fmt::format(
+      "strains of up to {:.2g} %: small strains, which all of this assumes, do not hold",
+      100 * largest);
 }
 
 void note(const TotalError& total, const ConstitutiveError& last, const std::string& by,

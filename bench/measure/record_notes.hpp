@@ -30,8 +30,7 @@ std::optional<std::int64_t> if_probed(std::int64_t bytes);
 struct TimedRun {
   double time_s = 0;
   std::map<std::string, double> stages;  // stage → seconds
-  Status status = Status::crashed;
-  std::string message = "the run did not take place";
+  Verdict end = {Status::crashed, "the run did not take place"};
   std::string signal, ended_in;           // see record_fields.def
   double runs_s = 0;                      // of all runs of the case so far
   double program_s = 0, processor_s = 0;  // of an external program, from start to end
@@ -40,8 +39,8 @@ struct TimedRun {
 Json to_json(const TimedRun& run);
 TimedRun timed_run_of(const Json& json);
 
-// Whether it ended like the detail run. Another status becomes the record's, and clears samples and
-// memory figures. which: "timed", "memory".
+// Whether it ended like the detail run. If not, its end becomes the record's, and samples and memory
+// figures go. which: "timed", "memory".
 bool ended_alike(const TimedRun& run, const char* which, Record& record);
 // A timed run's sample, if it ended alike.
 void add_run(const TimedRun& run, Record& record);
@@ -51,6 +50,7 @@ inline const char* obstacle_of(const Problem& problem) {
   return problem.opposite.empty() ? "wall" : "wall or other body";
 }
 
+// All but its status, of which the judge has the last word.
 void note(const Solution& solution, Record& record);
 // Needs the verification. last: of the last load step. by: Record::discretisation_by, the source of
 // the displacements.
@@ -61,12 +61,13 @@ void note(const MemorySplit& memory, Record& record);
 // "; the least gap to the wall is 0.012 mm", of the body as it is held, before it deforms; empty:
 // it has no contact boundary, or a path of load steps.
 std::string words_of_least_gap(const Problem& problem);
-// Gives a verified ok case its reason: nothing touches, can touch, or is free; bodies that may move
-// without resistance and load.
-void note_what_is_idle(const Problem& problem, Record& record);
-// The same: half-size load steps change, in any step, how many points stick or slip, or the
-// resultant by over 1 %.
-void note_slip_of_half_steps(Record& record);
-void note_large_strains(const Problem& problem, const StressField& stress, Record& record);
+// Remarks on an answer that is ok. Nothing touches, can touch, or is free; bodies that may move
+// without resistance and load:
+std::vector<std::string> remarks_on_what_is_idle(const Problem& problem, const Verification& v);
+// Half-size load steps change, in any step, how many points stick or slip, or the resultant by over
+// 1 %:
+std::vector<std::string> remarks_on_half_steps(const Record& record);
+// Strains above 10 %; else empty:
+std::string remark_on_large_strains(const Problem& problem, const StressField& stress);
 
 }  // namespace airybench

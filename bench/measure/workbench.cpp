@@ -60,12 +60,10 @@ Workbench::Examination Workbench::examine(const Case& asked, const std::filesyst
   try {
     take_over(blocks(method), record);
   } catch (const std::bad_alloc&) {
-    record.status = Status::out_of_memory;
-    record.status_reason = "assembly: an allocation was refused";
+    record.conclude({Status::out_of_memory, "assembly: an allocation was refused"});
     return examination;
   } catch (const std::exception& error) {
-    record.status = Status::breakdown;
-    record.status_reason = fmt::format("assembly: {}", error.what());
+    record.conclude({Status::breakdown, fmt::format("assembly: {}", error.what())});
     return examination;
   }
   const AssembledBlocks& assembled = blocks(method);
@@ -74,10 +72,12 @@ Workbench::Examination Workbench::examine(const Case& asked, const std::filesyst
   Solution& solution = run.solution;
   note_run(run, choice, record);
   if (solution.program) program_log = std::move(solution.program->log);
+  Verdict verdict = verdict_of(run, record);
   if (judge_.is_answered(solution)) {
     verify_run(assembled, run);
-    judge_.judge(asked, run.judged, solution, record);
+    verdict = judge_.judge(asked, run.judged, solution, std::move(verdict), record);
   }
+  record.conclude(verdict);
   if (!fields.empty() && problem_) write_fields(method, choice, assembled, run, record, fields);
   // The detail run of a path judges between its steps, which takes memory.
   const bool once =
@@ -296,13 +296,19 @@ void Workbench::write_fields(const Method& method, const Choice& choice,
       watched_s);
 }
 
+// The method's own.
+Verdict Workbench::verdict_of(const Run& run, const Record& record) {
+  Verdict verdict = {run.solution.status, run.solution.message};
+  if (record.tuning_cut && verdict.status != Status::ok)
+    verdict.add("the search was cut: see tuning_cut");
+  return verdict;
+}
+
 void Workbench::note_run(const Run& run, const Choice& choice, Record& record) {
   const Solution& solution = run.solution;
   note(solution, record);
   if (choice.settings.tightened && choice.settings.tolerance > 0)
     record.tolerance = choice.settings.tolerance;
-  if (record.tuning_cut && record.status != Status::ok)
-    record.status_reason += "; the search was cut: see tuning_cut";
   if (choice.settings.histories)
     for (const IterationHistory& history : solution.histories)
       record.histories[history.what] = history.residual;
@@ -325,8 +331,7 @@ void Workbench::note_memory(const Run& run, Record& record) {
 TimedRun Workbench::timed(const Run& run) {
   TimedRun result;
   result.time_s = run.time_s;
-  result.status = run.solution.status;
-  result.message = run.solution.message;
+  result.end = {run.solution.status, run.solution.message};
   for (const Stage stage : all_stages)
     if (const auto& seconds = run.solution.times[stage])
       result.stages[std::string(name_of(stage))] = *seconds;

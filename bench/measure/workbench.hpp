@@ -58,6 +58,7 @@ class Workbench {
   void write_fields(const Method& method, const Choice& choice, const AssembledBlocks& blocks,
                     const Run& run, Record& record, const std::filesystem::path& file);
   static void note_run(const Run& run, const Choice& choice, Record& record);
+  static Verdict verdict_of(const Run& run, const Record& record);
   static void note_memory(const Run& run, Record& record);
   static TimedRun timed(const Run& run);
 

@@ -103,11 +103,9 @@ Record blank_record(const Case& planned, const Limits& limits) {
   const Problem* const body = body_of(problem);
   const MeshSizes sizes = solved_sizes(problem);
   Record record;
-  record.status_reason = "the case did not run";
-  if (std::string why = why_skipped(problem, method); !why.empty()) {
-    record.status = Status::skipped;
-    record.status_reason = std::move(why);
-  }
+  const std::string why = why_skipped(problem, method);
+  record.conclude(why.empty() ? Verdict{Status::crashed, "the case did not run"}
+                              : Verdict{Status::skipped, why});
   record.mesh = mesh_name_of(problem);
   if (body != nullptr) take_over(extent_of(body->mesh), record);
   describe(method, record);

@@ -154,6 +154,15 @@ std::string context_word(const Record& record, const std::string& key) {
   return context_word(record.context, key);
 }
 
+void Verdict::add(const std::string& remark) {
+  if (!remark.empty()) reason += (reason.empty() ? "" : "; ") + remark;
+}
+
+void Record::conclude(const Verdict& verdict) {
+  status = verdict.status;
+  status_reason = verdict.reason;
+}
+
 bool is_verified(const Record& record) {
   return record.strain_energy_Nmm || record.equilibrium_residual;
 }

@@ -46,11 +46,20 @@ using steps = Json;
 using attempts = Json;
 }  // namespace field_kind
 
+// A status, and the reason of what is not ok or a remark on what is.
+struct Verdict {
+  Status status = Status::crashed;
+  std::string reason;  // remarks joined by "; "
+  void add(const std::string& remark);  // empty: none
+};
+
 // The defaults describe a case that did not run.
 struct Record {
 #define FIELD(kind, name, unit, use, source, label, meaning) field_kind::kind name{};
 #include "bench/records/record_fields.def"
-  Record() { status = Status::crashed; }
+  Record() { conclude({}); }
+  // Nothing else but a reader of records sets its status.
+  void conclude(const Verdict& verdict);
 };
 
 // Sources of fields; take_over() needs their names only.

@@ -9,7 +9,6 @@
 #include <map>
 #include <sstream>
 #include <system_error>
-#include <tuple>
 
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
@@ -73,8 +72,7 @@ void serve_case(Channel& channel, const Case& c, const Limits& limits,
       keep_log(c, out, examination.program_log);
     } catch (const FileError& error) {  // from a field or a log
       record = blank_record(c, limits);
-      record.status = Status::machine_fault;
-      record.status_reason = error.what();
+      record.conclude({Status::machine_fault, error.what()});
     }
     if (is_measured(record) && !record.measured_once)
       bench.measure_memory(c.method, choice, record);
@@ -98,8 +96,7 @@ void end_orphans(const std::map<std::size_t, CaseProcess>& processes) {
 
 Record record_of_end(const Case& c, const Limits& limits, const TimedRun& last) {
   Record record = blank_record(c, limits);
-  record.status = last.status;
-  record.status_reason = last.message;
+  record.conclude(last.end);
   record.signal = last.signal;
   record.ended_in = last.ended_in;
   record.time_so_far_s = last.time_s;
@@ -150,14 +147,13 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
     try {
       for (int attempts = 1; !ask(); ++attempts) {
         answer.reset();
-        last.status = Status::machine_fault;
-        last.message = fmt::format("its process was suspended in all of {} attempts", attempts);
+        last.end = {Status::machine_fault,
+                    fmt::format("its process was suspended in all of {} attempts", attempts)};
         if (attempts == most_tries) break;
         if (examines) own.process.reset();
       }
     } catch (const std::system_error& error) {  // no process could be started
-      last.status = Status::machine_fault;
-      last.message = error.what();
+      last.end = {Status::machine_fault, error.what()};
     }
     if (!answer)
       answer = json_text(examines ? to_json(record_of_end(c, limits, last)) : to_json(last));
@@ -169,7 +165,7 @@ bool is_unheard(const ChildEnd& end) {
   return end.channel_error != 0 || end.exit_code == no_channel_exit_code;
 }
 
-std::pair<Status, std::string> why_no_answer(const ChildEnd& end) {
+Verdict why_no_answer(const ChildEnd& end) {
   if (end.stopped)
     return {Status::machine_fault, "the process of its scene was stopped by somebody, and ended"};
   if (end.timed_out)
@@ -198,13 +194,12 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limi
   run.runs_s = board.seconds_in_runs();
   const std::string place = fmt::format("in {} after {}", run.ended_in, show_seconds(run.time_s));
   const auto ended = [&](Status status, const std::string& how) {
-    run.status = status;
-    run.message = fmt::format("its process was ended {}{}", place, how);
+    run.end = {status, fmt::format("its process was ended {}{}", place, how)};
     return run;
   };
   if (end.stopped) {
-    run.status = Status::machine_fault;
-    run.message = fmt::format("its process was stopped by somebody {}, and ended", place);
+    run.end = {Status::machine_fault,
+               fmt::format("its process was stopped by somebody {}, and ended", place)};
     return run;
   }
   if (is_unheard(end)) return ended(Status::machine_fault, ": the channel to it failed");
@@ -218,7 +213,7 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limi
                      : Status::machine_fault,
                  ": there was no memory");
   if (end.signal == 0) {
-    run.message = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
+    run.end.reason = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
     return run;
   }
   run.signal = signal_name(end.signal);
@@ -305,10 +300,10 @@ void IsolatedScene::prepare(std::size_t k) {
         broken_assemblies_[blocks] = obituary;
         break;
       case Activity::discretisation:
-        left_out_.discretisation = obituary.message;
+        left_out_.discretisation = obituary.end.reason;
         break;
       case Activity::reference:
-        left_out_.reference = "no reference: " + obituary.message;
+        left_out_.reference = "no reference: " + obituary.end.reason;
         break;
       default:  // try again
         break;
@@ -334,7 +329,7 @@ Record IsolatedScene::examine(std::size_t k) {
     return record_of_defect(*cases_[k], limits_, wrong);
   }
   end_process();
-  std::tie(record.status, record.status_reason) = why_no_process_;
+  record.conclude(why_no_process_);
   return record;
 }
 
@@ -347,11 +342,11 @@ TimedRun IsolatedScene::measure_time(std::size_t k) {
   try {
     if (answer) return timed_run_of(parse_json(*answer));
   } catch (const Json::exception& wrong) {
-    run.message = fmt::format("its times are no numbers: {}", without_prefix(wrong));
+    run.end.reason = fmt::format("its times are no numbers: {}", without_prefix(wrong));
     return run;
   }
   if (is_there) end_process();
-  std::tie(run.status, run.message) = why_no_process_;
+  run.end = why_no_process_;
   return run;
 }
 
@@ -367,7 +362,7 @@ void IsolatedScene::end(std::size_t k) {
 
 Record record_of_defect(const Case& c, const Limits& limits, const RecordError& wrong) {
   Record record = blank_record(c, limits);
-  record.status_reason = wrong.what();
+  record.conclude({Status::crashed, wrong.what()});
   return record;
 }
 

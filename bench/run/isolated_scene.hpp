@@ -57,8 +57,7 @@ class IsolatedScene {
   LeftOut left_out_;                                 // parts that broke it
   std::map<BlocksKey, TimedRun> broken_assemblies_;  // whose assembly broke it, and how it ended
   std::unique_ptr<ChildProcess> process_;
-  std::pair<Status, std::string> why_no_process_ = {Status::machine_fault,
-                                                    "its scene's process ended again and again"};
+  Verdict why_no_process_ = {Status::machine_fault, "its scene's process ended again and again"};
   bool prepared_ = false;           // process_ has what all cases share
   std::set<std::size_t> examined_;  // in process_
   double preparation_s_ = 0;

@@ -150,11 +150,11 @@ TEST(TimedRun, ThatEndsOtherwiseTakesTheMeasurementsAway) {
   record.peak_heap_bytes = 12;
   record.memory_by_owner = by_owner(made_up_memory());
   TimedRun run;
-  run.status = Status::ok;
+  run.end.status = Status::ok;
   run.time_s = 0.5;
   add_run(run, record);
   EXPECT_EQ(record.samples_s.size(), 2u);
-  run.status = Status::timeout;
+  run.end.status = Status::timeout;
   add_run(timed_run_of(to_json(run)), record);
   EXPECT_EQ(record.status, Status::timeout);
   EXPECT_TRUE(record.samples_s.empty());

@@ -17,7 +17,7 @@ TEST(Obituary, OfOneKilledWithoutTheKernelsCountIsNotOutOfMemory) {
   end.signal = SIGKILL;
   for (const std::optional<bool> counted : {std::optional<bool>(), {true}, {false}}) {
     end.oom_killed = counted;
-    EXPECT_EQ(obituary_of(end, board, Limits()).status,
+    EXPECT_EQ(obituary_of(end, board, Limits()).end.status,
               counted == false ? Status::machine_fault : Status::out_of_memory);
   }
 }
@@ -32,10 +32,10 @@ TEST(Obituary, OfOneWithoutMemoryOutsideOfARunIsNoCrash) {
     });
     EXPECT_FALSE(child.ask("are you there"));
     ActivityBoard board;
-    EXPECT_EQ(obituary_of(child.end(), board, Limits()).status, Status::machine_fault)
+    EXPECT_EQ(obituary_of(child.end(), board, Limits()).end.status, Status::machine_fault)
         << child.end().exit_code << " " << child.end().signal;
     board.begins(Activity::detail_run);
-    EXPECT_EQ(obituary_of(child.end(), board, Limits()).status, Status::out_of_memory);
+    EXPECT_EQ(obituary_of(child.end(), board, Limits()).end.status, Status::out_of_memory);
   }
 }
 
