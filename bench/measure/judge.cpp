@@ -126,7 +126,7 @@ Verdict Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps,
   } else {
     note_error_of_displacement(steps, record);
   }
-  const Json* const halves = half_steps(method.degree);
+  const std::vector<StepResult>* const halves = half_steps(method.degree);
   if (halves != nullptr) record.steps_in_halves = *halves;
   if (is_ok()) verdict = judge_total_error(method, std::move(verdict), record);
   if (is_ok() && halves != nullptr && !method.in_displacements)

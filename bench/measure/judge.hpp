@@ -51,7 +51,7 @@ class Judge {
     ConstitutiveError error;
     DisplacementField u;
     std::optional<ContactIntervals> intervals;  // for recovery, if asked for and the error is valid
-    Json of_steps = Json::array();              // merged into Record::steps
+    std::vector<StepMeshError> of_steps;
   };
 
   bool is_too_large_for_reference() const;
@@ -88,7 +88,7 @@ class Judge {
   // For an external program with references: its displacements, made admissible.
   void note_error_of_displacement(const std::vector<JudgedStep>& steps, Record& record);
   // A path with friction in twice as many steps; null without such a path or a reference.
-  const Json* half_steps(int degree);
+  const std::vector<StepResult>* half_steps(int degree);
 
   std::shared_ptr<const Problem> problem_;                   // null: there is no body
   std::shared_ptr<const contact::Problem> contact_problem_;  // null if there is a body
@@ -98,7 +98,7 @@ class Judge {
   std::string no_references_;  // why; empty: they can be had
   std::map<int, ReferencePath> references_;
   std::map<std::pair<Bound, int>, std::optional<Discretisation>> discretisation_;
-  std::map<int, Json> steps_in_halves_;  // by degree
+  std::map<int, std::vector<StepResult>> steps_in_halves_;  // by degree
 };
 
 }  // namespace airybench

@@ -32,26 +32,29 @@ const Judge::Discretisation* Judge::discretisation(Bound bound, int degree) {
 
 namespace {
 
-Json bounds(const ConstitutiveError& error) {
-  const auto or_null = [](bool is_there, double value) { return is_there ? Json(value) : Json(); };
-  return {{"lower_bound_Nmm", or_null(error.guaranteed, error.lower_bound_Nmm)},
-          {"upper_bound_Nmm", or_null(error.guaranteed, error.upper_bound_Nmm)}};
-}
-
-void add_errors(const TotalError& total, Json& steps) {
-  for (int k = 0; k < total.steps(); ++k) {
-    const auto error = total.relative(k);
-    steps[static_cast<std::size_t>(k)]["error_discretisation"] = error ? Json(*error) : Json();
+StepMeshError bounds(const ConstitutiveError& error) {
+  StepMeshError step;
+  if (error.guaranteed) {
+    step.lower_bound_Nmm = error.lower_bound_Nmm;
+    step.upper_bound_Nmm = error.upper_bound_Nmm;
   }
+  return step;
 }
 
-void add_intervals(const ContactIntervals& intervals, Json& step) {
-  for (const auto& [name, interval] : {std::pair("normal_resultant", intervals.normal_resultant_N),
-                                       {"tangential_resultant", intervals.tangential_resultant_N}})
-    if (interval) {
-      step[std::string(name) + "_low_N"] = interval->low;
-      step[std::string(name) + "_high_N"] = interval->high;
-    }
+void add_errors(const TotalError& total, std::vector<StepMeshError>& steps) {
+  for (int k = 0; k < total.steps(); ++k)
+    steps[static_cast<std::size_t>(k)].error_discretisation = total.relative(k);
+}
+
+void add_intervals(const ContactIntervals& intervals, StepMeshError& step) {
+  if (const auto& normal = intervals.normal_resultant_N) {
+    step.normal_resultant_low_N = normal->low;
+    step.normal_resultant_high_N = normal->high;
+  }
+  if (const auto& tangential = intervals.tangential_resultant_N) {
+    step.tangential_resultant_low_N = tangential->low;
+    step.tangential_resultant_high_N = tangential->high;
+  }
 }
 
 std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const DualSystem& system,
@@ -134,7 +137,7 @@ void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Rec
   if (std::ssize(steps) < count_of_steps(*problem_)) return;
   TotalError total;
   ConstitutiveError error;
-  Json of_steps = Json::array();
+  std::vector<StepMeshError> of_steps;
   DualSystem system = assemble(problem_, Blocks::contact_points);
   solve_load_steps(references_one_by_one(1), system, {},
                    [&](int step, const DualSystem& posed, const Solution& own) {
@@ -147,7 +150,7 @@ void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Rec
                    });
   add_errors(total, of_steps);
   note(total, error, "its own displacements", record);
-  for (std::size_t k = 0; k < record.steps.size(); ++k) record.steps[k].update(of_steps[k]);
+  for (std::size_t k = 0; k < record.steps.size(); ++k) record.steps[k].of_mesh = of_steps[k];
 }
 
 void Judge::note_discretisation(const Method& method, Record& record) {
@@ -161,7 +164,7 @@ void Judge::note_discretisation(const Method& method, Record& record) {
          record);
     if (known->intervals) note(*known->intervals, record);
     for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
-      record.steps[k].update(known->of_steps[k]);
+      record.steps[k].of_mesh = known->of_steps[k];
   } else if (method.in_displacements) {
     const std::string& missing = references(method.degree).missing;
     record.no_discretisation_error = !missing.empty() ? missing
@@ -171,7 +174,7 @@ void Judge::note_discretisation(const Method& method, Record& record) {
   }
 }
 
-const Json* Judge::half_steps(int degree) {
+const std::vector<StepResult>* Judge::half_steps(int degree) {
   if (!problem_ || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
       reference(degree) == nullptr || !discretisation_left_out_.empty())
     return nullptr;
@@ -185,8 +188,8 @@ const Json* Judge::half_steps(int degree) {
 
 // Of the step that has the record's total error.
 std::string Judge::prefix_of_largest(const Record& record) const {
-  const auto step = std::ranges::find_if(record.steps, [&](const Json& own) {
-    return number_at(own, "error_discretisation") == record.error_discretisation;
+  const auto step = std::ranges::find_if(record.steps, [&](const StepResult& result) {
+    return result.of_mesh.error_discretisation == record.error_discretisation;
   });
   return step == record.steps.end() ? "" : prefix_of(step - record.steps.begin());
 }

@@ -153,26 +153,27 @@ std::size_t worst_step(const std::vector<JudgedStep>& steps) {
   return worst;
 }
 
-Json steps_of(const std::vector<JudgedStep>& steps) {
-  const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(); };
-  Json list = Json::array();
+std::vector<StepResult> step_results(const std::vector<JudgedStep>& steps) {
+  std::vector<StepResult> list;
   for (const JudgedStep& step : steps) {
     const Verification& v = step.seen();
-    list.push_back({{"claimed_status", name_of(step.claimed_status)},
-                    {"error", worst_measure(v).value},
-                    {"error_stress", or_null(v.error_stress)},
-                    {"normal_resultant_N", or_null(v.normal_resultant_N)},
-                    {"tangential_resultant_N", or_null(v.tangential_resultant_N)},
-                    {"n_open", or_null(v.n_open)},
-                    {"n_stick", or_null(v.n_stick)},
-                    {"n_slip", or_null(v.n_slip)},
-                    {"strain_energy_Nmm", v.strain_energy_Nmm},
-                    {"dissipation_Nmm", step.dissipation_Nmm}});
+    list.push_back({.claimed_status = step.claimed_status,
+                    .error = worst_measure(v).value,
+                    .error_stress = v.error_stress,
+                    .normal_resultant_N = v.normal_resultant_N,
+                    .tangential_resultant_N = v.tangential_resultant_N,
+                    .n_open = v.n_open,
+                    .n_stick = v.n_stick,
+                    .n_slip = v.n_slip,
+                    .strain_energy_Nmm = v.strain_energy_Nmm,
+                    .dissipation_Nmm = step.dissipation_Nmm,
+                    .of_mesh = {},
+                    .fields = {}});
   }
   return list;
 }
 
-Json steps_in_halves(const Problem& first, int degree) {
+std::vector<StepResult> steps_in_halves(const Problem& first, int degree) {
   std::vector<JudgedStep> steps;
   Status first_half = Status::ok;
   double first_half_Nmm = 0;
@@ -191,7 +192,7 @@ Json steps_in_halves(const Problem& first, int degree) {
                                         first_half_Nmm + dissipation});
                      }
                    });
-  return steps_of(steps);
+  return step_results(steps);
 }
 
 }  // namespace airybench

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "assembly/displacement_field.hpp"
-#include "bench/records/json.hpp"
+#include "bench/records/step_result.hpp"
 #include "bench/verify/reference.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/loading/load_steps.hpp"
@@ -52,9 +52,9 @@ std::string step_prefix(std::int64_t step, const Problem& first);
 // The step with the largest worst measure; NaN is largest. There must be a step.
 std::size_t worst_step(const std::vector<JudgedStep>& steps);
 
-Json steps_of(const std::vector<JudgedStep>& steps);
+std::vector<StepResult> step_results(const std::vector<JudgedStep>& steps);
 
 // The same for HYBRID with each step in two halves, if both have an answer; dissipation adds up.
-Json steps_in_halves(const Problem& first, int degree = 1);
+std::vector<StepResult> steps_in_halves(const Problem& first, int degree = 1);
 
 }  // namespace airybench

@@ -35,21 +35,20 @@ struct StepChange {
 
 std::vector<StepChange> changes_in_halves(const Record& record) {
   constexpr double least = 1e-3;
-  const auto resultant = [](const Json& step) {
-    return Eigen::Vector2d(step.at("normal_resultant_N").get<double>(),
-                           step.at("tangential_resultant_N").get<double>());
+  const auto resultant = [](const StepResult& step) {
+    return Eigen::Vector2d(step.normal_resultant_N.value(), step.tangential_resultant_N.value());
   };
   double largest = 0;
-  for (const Json& step : record.steps) largest = std::max(largest, resultant(step).norm());
+  for (const StepResult& step : record.steps) largest = std::max(largest, resultant(step).norm());
   std::vector<StepChange> changes;
   for (std::size_t k = 0; k < record.steps.size(); ++k) {
-    const Json &step = record.steps[k], &halved = record.steps_in_halves[k];
-    const auto change_of = [&](const char* count) {
-      return std::abs(step.at(count).get<int>() - halved.at(count).get<int>());
+    const StepResult &step = record.steps[k], &halved = record.steps_in_halves[k];
+    const auto change_of = [&](const auto& count) {
+      return static_cast<int>(std::abs((step.*count).value() - (halved.*count).value()));
     };
     const Eigen::Vector2d F = resultant(step), F_halved = resultant(halved);
     const double scale = std::max(F_halved.norm(), least * largest);
-    changes.push_back({std::max(change_of("n_stick"), change_of("n_slip")),
+    changes.push_back({std::max(change_of(&StepResult::n_stick), change_of(&StepResult::n_slip)),
                        scale > 0 ? (F - F_halved).norm() / scale : 0, F, F_halved});
   }
   return changes;
@@ -194,10 +193,10 @@ static std::string remark_on_dissipation(const Record& record) {
   constexpr double seen = 0.02;
   constexpr double min_share = 1e-3;  // of the path's largest strain energy: less is no loss
   double own = 0, halved = 0, energy = 0;
-  const auto add_up = [&](const std::vector<Json>& steps, double& sum) {
-    for (const Json& step : steps) {
-      sum += step.at("dissipation_Nmm").get<double>();
-      energy = std::max(energy, step.at("strain_energy_Nmm").get<double>());
+  const auto add_up = [&](const std::vector<StepResult>& steps, double& sum) {
+    for (const StepResult& step : steps) {
+      sum += step.dissipation_Nmm.value();
+      energy = std::max(energy, step.strain_energy_Nmm.value());
     }
   };
   add_up(record.steps, own);
@@ -212,8 +211,8 @@ static std::string remark_on_dissipation(const Record& record) {
 }
 
 std::vector<std::string> remarks_on_half_steps(const Record& record) {
-  const bool all_ok = std::ranges::all_of(record.steps_in_halves, [](const Json& step) {
-    return step.at("claimed_status") == name_of(Status::ok);
+  const bool all_ok = std::ranges::all_of(record.steps_in_halves, [](const StepResult& step) {
+    return step.claimed_status == Status::ok;
   });
   if (record.steps_in_halves.size() != record.steps.size() || !all_ok)
     return {"with every load step in two halves there is no answer to compare with"};
@@ -226,14 +225,13 @@ std::vector<std::string> remarks_on_half_steps(const Record& record) {
   });
   const auto& [points, of_force, F, F_halved] = *worst;
   const std::size_t k = worst - changes.begin();
-  const Json &step = record.steps[k], &halved = record.steps_in_halves[k];
+  const StepResult &step = record.steps[k], &halved = record.steps_in_halves[k];
   remarks.push_back(
       fmt::format("with every load step in two halves {} of {} steps end otherwise, step {} most: "
                   "{} points stick and {} slip, not {} and {}; F = ({:.5g}, {:.5g}) N, not "
                   "({:.5g}, {:.5g})",
-                  differs, changes.size(), k + 1, halved.at("n_stick").get<int>(),
-                  halved.at("n_slip").get<int>(), step.at("n_stick").get<int>(),
-                  step.at("n_slip").get<int>(), F_halved.x(), F_halved.y(), F.x(), F.y()));
+                  differs, changes.size(), k + 1, *halved.n_stick, *halved.n_slip, *step.n_stick,
+                  *step.n_slip, F_halved.x(), F_halved.y(), F.x(), F.y()));
   return remarks;
 }
 

@@ -39,8 +39,8 @@ struct TimedRun {
 Json to_json(const TimedRun& run);
 TimedRun timed_run_of(const Json& json);
 
-// Whether it ended like the detail run. If not, its end becomes the record's, and samples and memory
-// figures go. which: "timed", "memory".
+// Whether it ended like the detail run. If not, its end becomes the record's, and samples and
+// memory figures go. which: "timed", "memory".
 bool ended_alike(const TimedRun& run, const char* which, Record& record);
 // A timed run's sample, if it ended alike.
 void add_run(const TimedRun& run, Record& record);

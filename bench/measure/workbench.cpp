@@ -289,7 +289,7 @@ void Workbench::write_fields(const Method& method, const Choice& choice,
       [&](int step, const DualSystem& posed, const Solution& answer) {
         const auto k = static_cast<std::size_t>(step);
         if (answer.stress.empty() || k >= run.judged.size()) return;
-        record.steps[k]["fields"] = files.write(step, own_fields(posed, answer), run.judged[k]);
+        record.steps[k].fields = files.write(step, own_fields(posed, answer), run.judged[k]);
         if (step + 1 == record.load_steps)
           judge_.write_fields_of(method, posed, answer, record, file);
       },
@@ -318,7 +318,7 @@ void Workbench::note_run(const Run& run, const Choice& choice, Record& record) {
     if (*solution.done_fraction > 0)
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
-  if (record.load_steps > 1) record.steps = steps_of(run.judged);
+  if (record.load_steps > 1) record.steps = step_results(run.judged);
 }
 
 void Workbench::note_memory(const Run& run, Record& record) {

@@ -10,6 +10,7 @@
 
 #include "bench/records/case_name.hpp"
 #include "bench/records/json.hpp"
+#include "bench/records/step_result.hpp"
 #include "support/errors.hpp"
 #include "support/status.hpp"
 
@@ -34,6 +35,7 @@ using times = std::vector<double>;
 using stage_times = std::vector<std::map<std::string, double>>;  // per run: stage → seconds
 using words = std::vector<std::string>;
 using words_by_word = std::map<std::string, std::string>;
+using steps = std::vector<StepResult>;
 // JSON of a certain shape, or null:
 using object = Json;
 using wholes_by_word = Json;
@@ -42,14 +44,13 @@ using texts_by_word = Json;
 using numbers_by_word = Json;
 using grid = Json;
 using contact_ends = Json;
-using steps = Json;
 using attempts = Json;
 }  // namespace field_kind
 
 // A status, and the reason of what is not ok or a remark on what is.
 struct Verdict {
   Status status = Status::crashed;
-  std::string reason;  // remarks joined by "; "
+  std::string reason;                   // remarks joined by "; "
   void add(const std::string& remark);  // empty: none
 };
 

@@ -95,13 +95,11 @@ std::string outcome_of(const Record& r) {
   const auto is_met = [&](const std::optional<double>& error) {
     return !error || (r.target_error && *error <= *r.target_error);
   };
-  const bool is_of_the_mesh = is_all_error(r.error_discretisation) && is_met(r.error_stress) &&
-                              is_met(r.error_force) && is_met(r.equilibrium_residual) &&
-                              is_met(r.natural_map_residual) &&
-                              std::ranges::all_of(r.steps, [&](const Json& step) {
-                                const auto error = number_at(step, "error");
-                                return error && is_met(error);
-                              });
+  const bool is_of_the_mesh =
+      is_all_error(r.error_discretisation) && is_met(r.error_stress) && is_met(r.error_force) &&
+      is_met(r.equilibrium_residual) && is_met(r.natural_map_residual) &&
+      std::ranges::all_of(r.steps,
+                          [&](const StepResult& step) { return step.error && is_met(step.error); });
   if (r.status == Status::inaccurate && r.claimed_status == Status::ok && !is_of_the_mesh)
     return r.error_stress ? "wrong_success" : "unverified";
   return r.other_solution ? "other_solution" : std::string(name_of(r.status));
@@ -112,21 +110,15 @@ bool times_tie(const Record& a, const Record& b) {
          *b.time_low_s <= *a.time_high_s;
 }
 
-std::optional<double> number_at(const Json& step, const char* key) {
-  const auto found = step.find(key);
-  return found != step.end() && found->is_number() ? std::optional(found->get<double>())
-                                                   : std::nullopt;
-}
-
 // Mesh and method together, of a path the step where that is largest. A displacement method has no
 // error_stress.
 static std::optional<double> total_error(const Record& r) {
   if (!r.error_discretisation || !is_verified(r)) return {};
   double largest = *r.error_discretisation;
   if (r.steps.empty()) largest += r.error_stress.value_or(0);
-  for (const Json& step : r.steps)
-    if (const auto of_mesh = number_at(step, "error_discretisation"))
-      largest = std::max(largest, *of_mesh + number_at(step, "error_stress").value_or(0));
+  for (const StepResult& step : r.steps)
+    if (const auto& of_mesh = step.of_mesh.error_discretisation)
+      largest = std::max(largest, *of_mesh + step.error_stress.value_or(0));
   return largest;
 }
 

@@ -16,8 +16,6 @@ std::string outcome_of(const Record& record);
 bool times_tie(const Record& a, const Record& b);
 inline constexpr int fewest_to_tell_apart =
     5;  // two samples of five differ at p < 0.01, of four never
-// A number of an object, as those of Record::steps; empty: it has none.
-std::optional<double> number_at(const Json& step, const char* key);
 // A total error of 100 % and more. Where bodies miss each other on the mesh it is 1 up to rounding.
 inline bool is_all_error(const std::optional<double>& error) {
   return error && !(*error < 1 - 1e-9);  // NaN: nothing is known

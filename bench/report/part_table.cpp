@@ -110,16 +110,14 @@ std::string percent(const std::optional<double>& share) {
 std::string steps_table(const Record& record) {
   if (record.steps.size() < 2) return "";
   Rows rows = {{"step", "F_n N", "F_t N", "energy N mm", "dissipation N mm", "total error", ""}};
-  const auto cell = [](const Json& step, const char* key) {
-    const std::optional<double> value = number_at(step, key);
+  const auto cell = [](const std::optional<double>& value) {
     return value ? number(*value) : std::string("-");
   };
   for (std::size_t k = 0; k < record.steps.size(); ++k) {
-    const Json& step = record.steps[k];
-    rows.push_back({std::to_string(k + 1), cell(step, "normal_resultant_N"),
-                    cell(step, "tangential_resultant_N"), cell(step, "strain_energy_Nmm"),
-                    cell(step, "dissipation_Nmm"), percent(number_at(step, "error_discretisation")),
-                    ""});
+    const StepResult& step = record.steps[k];
+    rows.push_back({std::to_string(k + 1), cell(step.normal_resultant_N),
+                    cell(step.tangential_resultant_N), cell(step.strain_energy_Nmm),
+                    cell(step.dissipation_Nmm), percent(step.of_mesh.error_discretisation), ""});
   }
   return aligned_table(rows, 1) + "\n";
 }

@@ -158,15 +158,16 @@ PosedScene posed_level(const Json& said, const Scene& scene, const std::string& 
                        const PosedScene& start, const std::filesystem::path& out) {
   const MeshFile file = read_mesh_file(said.at("file").get<std::string>());
   const double time_s = said.at("time_s");
+  const Json& goal = said.at("goal");
   return {.scene_name = start.scene_name,
           .scene_group = start.scene_group,
           .mesh_file = recorded_path(file.path, out),
           .mesh_sha256 = file.sha256,
           .scene_definition = definition,
           .problem = std::make_shared<const Problem>(pose(scene, file.mesh)),
-          .adapted =
-              AdaptedMesh{said.at("number"), time_s, said.at("estimate_s").get<double>() / time_s,
-                          said.at("angle"), number_at(said, "goal")}};
+          .adapted = AdaptedMesh{
+              said.at("number"), time_s, said.at("estimate_s").get<double>() / time_s,
+              said.at("angle"), goal.is_null() ? std::nullopt : std::optional(goal.get<double>())}};
 }
 
 void print(const Json& said, const std::string& name) {

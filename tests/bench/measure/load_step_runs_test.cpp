@@ -30,10 +30,16 @@ Record summarised(const Method& method) {
   return record;
 }
 
-std::vector<double> of_steps(const Record& record, const char* key) {
+std::vector<double> of_steps(const Record& record, std::optional<double> StepResult::*value) {
   std::vector<double> values;
-  for (const Json& step : record.steps) values.push_back(step.at(key).get<double>());
+  for (const StepResult& step : record.steps) values.push_back((step.*value).value());
   return values;
+}
+std::vector<double> errors_of_steps(const Record& record) {
+  std::vector<double> errors;
+  for (const StepResult& step : record.steps)
+    errors.push_back(step.of_mesh.error_discretisation.value());
+  return errors;
 }
 
 std::string remarks(const Record& record) {
@@ -49,14 +55,14 @@ TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
     EXPECT_EQ(record.outcome, "ok") << method.name << ": " << record.status_reason;
     EXPECT_EQ(record.load_steps, 3);
     ASSERT_EQ(record.steps.size(), 3u) << method.name;
-    for (const Json& step : record.steps) {
-      EXPECT_EQ(step.at("claimed_status"), "ok");
-      EXPECT_LE(step.at("error").get<double>(), 1e-6) << method.name;
+    for (const StepResult& step : record.steps) {
+      EXPECT_EQ(step.claimed_status, Status::ok);
+      EXPECT_LE(step.error.value(), 1e-6) << method.name;
     }
-    EXPECT_EQ(record.steps[2].at("tangential_resultant_N"), record.tangential_resultant_N);
-    EXPECT_EQ(record.steps[2].at("n_slip"), record.n_slip);
+    EXPECT_EQ(record.steps[2].tangential_resultant_N, record.tangential_resultant_N);
+    EXPECT_EQ(record.steps[2].n_slip, record.n_slip);
     // Sheared it is another than pressed, and the way back leaves forces behind.
-    const std::vector<double> tangential = of_steps(record, "tangential_resultant_N");
+    const std::vector<double> tangential = of_steps(record, &StepResult::tangential_resultant_N);
     EXPECT_LT(tangential[1], tangential[0] - 1);
     EXPECT_GT(tangential[2], tangential[0] + 1);
     EXPECT_NEAR(*record.time_per_load_s * 3 + *record.time_once_s, *record.time_s, 1e-9);
@@ -143,37 +149,37 @@ TEST(LoadStepRuns, APathWithFrictionIsSolvedInHalfStepsToo) {
   const Record two = examined_in(2, 0.2), four = examined_in(4, 0.2);
   ASSERT_EQ(two.steps_in_halves.size(), 2u);
   for (const int k : {0, 1}) {
-    const Json &halved = two.steps_in_halves[k], &second = four.steps[2 * k + 1];
-    for (const char* key : {"n_open", "n_stick", "n_slip"})
-      EXPECT_EQ(halved.at(key), second.at(key));
-    for (const char* key : {"normal_resultant_N", "tangential_resultant_N"})
-      EXPECT_NEAR(halved.at(key).get<double>() / second.at(key).get<double>(), 1, 1e-9) << key;
-    const std::vector<double> dissipated = of_steps(four, "dissipation_Nmm");
-    EXPECT_NEAR(halved.at("dissipation_Nmm").get<double>(),
-                dissipated[2 * k] + dissipated[2 * k + 1], 1e-9);
+    const StepResult &halved = two.steps_in_halves[k], &second = four.steps[2 * k + 1];
+    for (const auto count : {&StepResult::n_open, &StepResult::n_stick, &StepResult::n_slip})
+      EXPECT_EQ(halved.*count, second.*count);
+    for (const auto force : {&StepResult::normal_resultant_N, &StepResult::tangential_resultant_N})
+      EXPECT_NEAR((halved.*force).value() / (second.*force).value(), 1, 1e-9);
+    const std::vector<double> dissipated = of_steps(four, &StepResult::dissipation_Nmm);
+    EXPECT_NEAR(halved.dissipation_Nmm.value(), dissipated[2 * k] + dissipated[2 * k + 1], 1e-9);
   }
-  EXPECT_NE(two.steps.back().at("n_stick"), two.steps_in_halves.back().at("n_stick"));
+  EXPECT_NE(two.steps.back().n_stick, two.steps_in_halves.back().n_stick);
   EXPECT_NE(two.status_reason.find("with every load step in two halves "), std::string::npos)
       << two.status_reason;
   EXPECT_EQ(examined_in(2, 0.2, "P2").steps_in_halves, two.steps_in_halves);
   const Record of_degree = examined_in(2, 0.2, "HYBRID:k=3");
   ASSERT_EQ(of_degree.steps_in_halves.size(), 2u);
-  for (const Json& halved : of_degree.steps_in_halves)  // its own points
-    EXPECT_EQ(halved.at("n_open").get<int>() + halved.at("n_stick").get<int>() +
-                  halved.at("n_slip").get<int>(),
+  for (const StepResult& halved : of_degree.steps_in_halves)  // its own points
+    EXPECT_EQ(halved.n_open.value() + halved.n_stick.value() + halved.n_slip.value(),
               *of_degree.n_open + *of_degree.n_stick + *of_degree.n_slip);
 }
 
 // Fretting's first step sticks in 10 points, in two halves in 18; its last one is the same in both.
 TEST(LoadStepRuns, TheNoteOnHalvesNamesTheWorstStep) {
   const auto step = [](int stick, int slip, double tangential_N) {
-    return Json{{"claimed_status", "ok"},
-                {"normal_resultant_N", -100.},
-                {"tangential_resultant_N", tangential_N},
-                {"n_stick", stick},
-                {"n_slip", slip},
-                {"strain_energy_Nmm", 50.},
-                {"dissipation_Nmm", 1.}};
+    StepResult result;
+    result.claimed_status = Status::ok;
+    result.normal_resultant_N = -100;
+    result.tangential_resultant_N = tangential_N;
+    result.n_stick = stick;
+    result.n_slip = slip;
+    result.strain_energy_Nmm = 50;
+    result.dissipation_Nmm = 1;
+    return result;
   };
   Record record;
   record.steps = {step(10, 15, 0), step(20, 5, 10), step(0, 25, 20)};
@@ -183,11 +189,11 @@ TEST(LoadStepRuns, TheNoteOnHalvesNamesTheWorstStep) {
             "stick and 7 slip, not 10 and 15; F = (-100, 0) N, not (-100, 0)");
   record.steps_in_halves = record.steps;
   EXPECT_EQ(remarks(record), "");
-  record.steps_in_halves[2]["tangential_resultant_N"] = 25;
+  record.steps_in_halves[2].tangential_resultant_N = 25;
   EXPECT_NE(remarks(record).find("1 of 3 steps end otherwise, step 3 most"), std::string::npos)
       << remarks(record);
   record.steps_in_halves = record.steps;
-  record.steps_in_halves[1]["dissipation_Nmm"] = 2.;
+  record.steps_in_halves[1].dissipation_Nmm = 2.;
   EXPECT_EQ(remarks(record),
             "with every load step in two halves friction dissipates 4 N mm, not 3");
 }
@@ -196,13 +202,15 @@ TEST(LoadStepRuns, TheNoteOnHalvesNamesTheWorstStep) {
 TEST(LoadStepRuns, DissipationInHalvesIsRelativeToTheLargestStrainEnergy) {
   const auto remark = [](double whole_Nmm, double halved_Nmm) {
     const auto step = [](double energy_Nmm, double dissipation_Nmm) {
-      return Json{{"claimed_status", "ok"},
-                  {"normal_resultant_N", -100.},
-                  {"tangential_resultant_N", 5.},
-                  {"n_stick", 10},
-                  {"n_slip", 0},
-                  {"strain_energy_Nmm", energy_Nmm},
-                  {"dissipation_Nmm", dissipation_Nmm}};
+      StepResult result;
+      result.claimed_status = Status::ok;
+      result.normal_resultant_N = -100;
+      result.tangential_resultant_N = 5;
+      result.n_stick = 10;
+      result.n_slip = 0;
+      result.strain_energy_Nmm = energy_Nmm;
+      result.dissipation_Nmm = dissipation_Nmm;
+      return result;
     };
     Record record;
     record.steps = {step(50, whole_Nmm), step(0, 0)};  // it ends unloaded
@@ -234,17 +242,16 @@ TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
     ASSERT_TRUE(once.error_discretisation && path.error_discretisation) << method;
     EXPECT_NEAR(*path.lower_bound_Nmm / *once.lower_bound_Nmm, 1, 1e-9);
     ASSERT_EQ(path.steps.size(), 3u);
-    const std::vector<double> errors = of_steps(path, "error_discretisation");
+    const std::vector<double> errors = errors_of_steps(path);
     EXPECT_NEAR(errors[2] / *once.error_discretisation, 1, 1e-6) << method;
     EXPECT_EQ(*path.error_discretisation, std::ranges::max(errors));
-    for (const Json& step : path.steps)
-      EXPECT_LT(step.at("lower_bound_Nmm").get<double>(), step.at("upper_bound_Nmm").get<double>());
+    for (const StepResult& step : path.steps)
+      EXPECT_LT(step.of_mesh.lower_bound_Nmm.value(), step.of_mesh.upper_bound_Nmm.value());
   }
   const Record path = examined_in(3, "HYBRID");
-  for (const Json& step : path.steps) {
-    EXPECT_LE(step.at("normal_resultant_low_N").get<double>(),
-              step.at("normal_resultant_N").get<double>());
-    EXPECT_EQ(step.at("dissipation_Nmm"), 0);
+  for (const StepResult& step : path.steps) {
+    EXPECT_LE(step.of_mesh.normal_resultant_low_N.value(), step.normal_resultant_N.value());
+    EXPECT_EQ(step.dissipation_Nmm, 0);
   }
 }
 
@@ -255,8 +262,8 @@ TEST(LoadStepRuns, WithFrictionTheErrorOfAStepIsOfItsOwnSlip) {
   for (const char* method : {"HYBRID", "HYBRID:k=3", "P2", "P3"}) {
     const Record record = examined(sheared_and_back(), method, options);
     ASSERT_EQ(record.steps.size(), 3u);
-    const std::vector<double> error = of_steps(record, "error_discretisation"),
-                              dissipated = of_steps(record, "dissipation_Nmm");
+    const std::vector<double> error = errors_of_steps(record),
+                              dissipated = of_steps(record, &StepResult::dissipation_Nmm);
     EXPECT_LT(error[2], 1.3 * error[0]) << method;
     EXPECT_GE(std::ranges::min(dissipated), -1e-12) << method;
     EXPECT_GT(std::reduce(dissipated.begin(), dissipated.end()), 1e-4) << method;
@@ -292,7 +299,7 @@ TEST(LoadStepRuns, AStepWithoutAnAnswerIsTheLast) {
 TEST(LoadStepRuns, ASceneWithoutAPathHasOneStep) {
   const Record record = examined(testing::posed({}), "HYBRID");
   EXPECT_EQ(record.load_steps, 1);
-  EXPECT_TRUE(record.steps.is_null());
+  EXPECT_TRUE(record.steps.empty());
 }
 
 }  // namespace

@@ -259,11 +259,12 @@ TEST(Study, AnErrorOfTheMeshIsNotTheMethods) {
   record.error_stress = 1e-9;
   record.error_discretisation = 1.2;
   EXPECT_EQ(outcome_of(record), "inaccurate");
-  record.steps = {{{"error", 1e-9}}, {{"error", 1e-9}}};
+  record.steps.resize(2);
+  for (StepResult& step : record.steps) step.error = 1e-9;
   EXPECT_EQ(outcome_of(record), "inaccurate");
-  record.steps[0]["error"] = 1e-3;
+  record.steps[0].error = 1e-3;
   EXPECT_EQ(outcome_of(record), "wrong_success");
-  record.steps[0]["error"] = nullptr;  // not a number
+  record.steps[0].error = std::nan("");
   EXPECT_EQ(outcome_of(record), "wrong_success");
 }
 

@@ -233,9 +233,9 @@ TEST(ListedScenes, AnotherSolutionOfAPathIsNotWrong) {
   EXPECT_TRUE(record.status_reason.starts_with("load step 1 of 2: another solution"))
       << record.status_reason;
   ASSERT_EQ(record.steps.size(), 2u);
-  for (const Json& step : record.steps) {
-    EXPECT_LT(step.at("error").get<double>(), 1e-9);
-    EXPECT_LT(step.at("normal_resultant_N").get<double>(), -1);
+  for (const StepResult& step : record.steps) {
+    EXPECT_LT(step.error.value(), 1e-9);
+    EXPECT_LT(step.normal_resultant_N.value(), -1);
   }
 }
 
