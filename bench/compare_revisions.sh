@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Runs two revisions of this tree, or two programs, in turn, and compares them case by case.
 #
-#   compare_revisions.sh BENCH A B [--runs=6] [--out=DIR] [options of bench]
+#   compare_revisions.sh TREES A B [--runs=6] [--out=DIR] [options of bench]
 #
-# BENCH is what compares. Runs in turn feel the same drift of the machine.
+# In TREES, the folder of build trees, are the bench that compares, clones and runs. Runs in turn feel the same drift of the machine.
 set -euo pipefail
 project=$(dirname "$(dirname "$(realpath -- "${BASH_SOURCE[0]}")")")
-bench=$1
+trees=$1
 shift
+unset AIRYBENCH_BUILD_DIR # a clone builds in itself
 
 # program_of A: the file, or bench of a revision, which is built in a clone.
 program_of() {
@@ -20,7 +21,7 @@ program_of() {
     echo "run: compare: $1 (allowed: a git revision, or a program)" >&2
     exit 2
   fi
-  source=$project/build/compare/$revision
+  source=$trees/compare/$revision
   if [[ ! -e $source/CMakeLists.txt ]]; then
     rm -rf "$source"
     git clone --quiet --no-checkout "$project" "$source" >&2
@@ -35,11 +36,12 @@ program_of() {
 
 sides=()
 runs=6
-out=$project/build/compare/runs
+out=$trees/compare/runs
 options=()
 for argument in "$@"; do
   case $argument in
     --runs=[1-9]*) runs=${argument#*=} ;;
+    --out=-*) out=./${argument#*=} ;; # or it would be an option of what compares
     --out=?*) out=${argument#*=} ;;
     -*) options+=("$argument") ;;
     *) sides+=("$argument") ;;
@@ -65,4 +67,4 @@ for ((k = 1; k <= runs; ++k)); do
     lists[side]+=,$folder
   done
 done
-exec "$bench" compare --names="${sides[0]//,/\\,},${sides[1]//,/\\,}" "${lists[0]#,}" "${lists[1]#,}"
+exec "$trees/release/bench/bench" compare --names="${sides[0]//,/\\,},${sides[1]//,/\\,}" "${lists[0]#,}" "${lists[1]#,}"

@@ -53,7 +53,7 @@ void draw_curves(const std::filesystem::path& curves_json, const std::filesystem
   const std::filesystem::path drawing = data_folder("plots") / "curves.py";
   const ProgramEnd end = run_program("/usr/bin/env",
                                      {"PATH=/usr/bin:/bin:/usr/local/bin", "python3",
-                                      drawing.string(), curves_json.string(), out.string()},
+                                      drawing.string(), "--", curves_json.string(), out.string()},
                                      time_limit_s);
   if (end.exit_code != 0)
     throw FileError(fmt::format("{}: no picture (Debian: python3-matplotlib, python3-pandas): {}",

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the peers that are compiled:  build.sh FOLDER
 set -euo pipefail
-peers=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+peers=$(dirname "$(realpath -- "${BASH_SOURCE[0]}")")
 mkdir -p "$1"
 
 siconos=/usr/include/siconos

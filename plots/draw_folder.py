@@ -47,7 +47,7 @@ def draw(args: argparse.Namespace) -> None:
         options = ["--vector"] * args.vector
         options += ["--animate"] * (args.animate and program == "gallery.py")
         options += [f"--only={args.only}"] * bool(args.only)
-        ran = subprocess.run([sys.executable, Path(__file__).with_name(program), args.results, *options],
+        ran = subprocess.run([sys.executable, Path(__file__).with_name(program), *options, "--", args.results],
                              stdout=subprocess.PIPE, text=True, check=False)
         status = status or ran.returncode
         if not args.quiet:

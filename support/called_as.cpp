@@ -36,4 +36,8 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
+std::string file_operand(const std::string& file) {
+  return shell_word(file.starts_with('-') ? "./" + file : file);
+}
+
 }  // namespace airybench

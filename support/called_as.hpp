@@ -15,5 +15,7 @@ std::string with_commands(std::string text);
 
 // The word as a shell reads it, in quotes where it needs them.
 std::string shell_word(const std::string& word);
+// The same of a file that follows the options: no option, whatever its name.
+std::string file_operand(const std::string& file);
 
 }  // namespace airybench

@@ -6,7 +6,7 @@
 #                                           tables of results/README.md, plots/record_fields.json
 #        tests/update_tables.sh --validation  the values of docs/validation.md and their figure
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd -- "$(dirname "$(dirname "$(realpath -- "${BASH_SOURCE[0]}")")")"
 if [[ ${1:-} == --fields ]]; then
   AIRYBENCH_UPDATE=anew build/release/tests/bench_test --gtest_brief=1 --gtest_filter='RecordFormat.*'
   exit

@@ -163,7 +163,7 @@ std::string pictures_of(const std::string& name, bool is_path, const fs::path& o
                  shown = is_path ? out / "fields" / (name + ".pvd") : grid,
                  picture = out / "figures" / ((is_path ? "load_path_" : "fields_") + name + ".png");
   if (std::error_code error; !fs::exists(grid, error)) return "";
-  const std::string draw = called_as("run") + " figures " + shell_word(out.string());
+  const std::string draw = called_as("run") + " figures " + file_operand(out.string());
   const std::string moving =
       is_path ? fmt::format("numbers of every step: {}\nmoving picture: {} --animate\n",
                             (out / "fields" / (name + ".steps.csv")).string(), draw)
@@ -252,7 +252,7 @@ void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
     any_figure = record.n_phi.has_value() || !record.study.empty();
   }
   if (then != nullptr && *then != '\0' && any_figure &&
-      std::system(fmt::format("{} {}", then, shell_word(out.string())).c_str()) != 0)
+      std::system(fmt::format("{} {}", then, file_operand(out.string())).c_str()) != 0)
     std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
   fmt::print("{}", picture_line(result, out, has_fields));
 }

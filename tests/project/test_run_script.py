@@ -14,6 +14,10 @@ FUNCTIONS = "\n".join(re.findall(r"^\w+\(\) (?:[({] *(?:#[^\n]*)?\n.*?^[)}]|\{[^
                                RUN.read_text(encoding="utf-8"), re.M | re.S))
 
 
+def functions(project: Path) -> str:
+    return f"set -euo pipefail\nproject='{project}'\ntrees=$project/build\n{FUNCTIONS}\n"
+
+
 class RunScriptTest(unittest.TestCase):
     def call(self, name: str, *arguments: str, stubs: dict[str, str], **environment: str):
         """Calls a function of ./run, with these shell scripts in place of programs."""
@@ -21,10 +25,10 @@ class RunScriptTest(unittest.TestCase):
             for stub, text in stubs.items():
                 Path(folder, stub).write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
                 Path(folder, stub).chmod(0o755)
-            tree = Path(folder, "build", "release")
-            tree.mkdir(parents=True)
-            (tree / ".ninja_log").touch()
-            script = f"set -euo pipefail\nproject='{folder}'\n{FUNCTIONS}\n{name} \"$@\""
+            for file in ("build/release/.ninja_log", "cmake/packages.txt"):
+                Path(folder, "project", file).parent.mkdir(parents=True)
+                Path(folder, "project", file).touch()
+            script = functions(Path(folder, "project")) + f'{name} "$@"'
             return subprocess.run(["bash", "-c", script, "run", *arguments], text=True, capture_output=True,
                                   env={"PATH": f"{folder}:/usr/bin:/bin", **environment}, check=False)
 
@@ -55,7 +59,7 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
             stub.chmod(0o755)
             (folder / "build/release").mkdir(parents=True)
             (folder / "build/release/.ninja_log").touch()
-            script = f"set -euo pipefail\nproject='{folder}'\n{FUNCTIONS}\nbuild release bench"
+            script = functions(folder) + "build release bench"
             at_once = [subprocess.Popen(["bash", "-c", script], stderr=subprocess.PIPE, text=True,
                                         env={"PATH": f"{folder}:/usr/bin:/bin"}) for _ in range(3)]
             said = "".join(one.communicate()[1] for one in at_once)
@@ -94,13 +98,47 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
             ran = self.call("packaged", "a", stubs={"apt-cache": said})
             self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (status, "", ""))
 
-    def compare(self, folder: Path, *arguments: str) -> subprocess.CompletedProcess:
-        """./run of a project whose programs tell their arguments."""
+    def test_a_group_of_packages_is_its_packages(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            Path(name, "cmake").mkdir()
+            Path(name, "cmake/packages.txt").write_text("a: b g++\na: c\nb: d\n", encoding="utf-8")
+            ran = subprocess.run(["bash", "-c", functions(Path(name)) + "packages a g++ valgrind"], text=True,
+                                 capture_output=True, check=False)
+            self.assertEqual((ran.stdout.split(), ran.stderr), (["b", "g++", "c", "g++", "valgrind"], ""))
+
+    def test_a_tree_of_a_checkout_that_was_moved_is_configured_again(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            old, new = Path(name, "old"), Path(name, "new")
+            old.mkdir()
+            (old / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.25)\nproject(p NONE)\n",
+                                                encoding="utf-8")
+            preset = '{"name": "release", "generator": "Ninja", "binaryDir": "${sourceDir}/build/release"}'
+            (old / "CMakePresets.json").write_text(f'{{"version": 6, "configurePresets": [{preset}]}}', encoding="utf-8")
+            for project in (old, old, new):  # the first, the same, the moved one
+                if project is new:
+                    old.rename(new)
+                (project / "build").mkdir(exist_ok=True)
+                ran = subprocess.run(["bash", "-c", functions(project) + "configure release -DX=1"], text=True,
+                                     capture_output=True, check=False)
+                self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "", ""))
+                self.assertIn(f"={project}\n", (project / "build/release/CMakeCache.txt").read_text(encoding="utf-8"))
+            (new / "CMakeLists.txt").write_text("message(FATAL_ERROR why)\n", encoding="utf-8")
+            ran = subprocess.run(["bash", "-c", functions(new) + "configure release"], text=True,
+                                 capture_output=True, check=False)
+            self.assertEqual((ran.returncode, ran.stdout), (2, ""))
+            self.assertEqual(ran.stderr.count("why"), 1, ran.stderr)
+            self.assertTrue(ran.stderr.endswith(f"\nrun: {new}/build/release: cannot be configured\n"), ran.stderr)
+
+    def project_in(self, folder: Path) -> Path:
+        """A project whose programs tell their arguments."""
         project = folder / "project"
         bench = project / "build/release/bench/bench"
         bench.parent.mkdir(parents=True)
         shutil.copy(RUN, project)
+        (bench.parents[1] / ".ninja_log").touch()
         (project / "bench").mkdir()
+        (project / "cmake").mkdir()
+        (project / "cmake/packages.txt").write_text("bench: cmake\n", encoding="utf-8")
         shutil.copy(RUN.parent / "bench/compare_revisions.sh", project / "bench")
         programs = {bench: 'echo "bench $*"', folder / "cmake": ":",
                     folder / "dpkg-query": "printf 'installed %s\\n' \"$@\"",
@@ -108,9 +146,43 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
         for program, text in programs.items():
             program.write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
             program.chmod(0o755)
-        return subprocess.run([project / "run", "compare", *arguments], cwd=folder, text=True,
+        return project
+
+    def compare(self, folder: Path, *arguments: str) -> subprocess.CompletedProcess:
+        return subprocess.run([self.project_in(folder) / "run", "compare", *arguments], cwd=folder, text=True,
                               capture_output=True, check=False,
                               env={"PATH": f"{folder}:/usr/bin:/bin", "AIRYBENCH_INSTALL": "no"})
+
+    def run_bench(self, folder: Path, before: str) -> subprocess.CompletedProcess:
+        project = folder / "project"
+        if not project.exists():
+            self.project_in(folder)
+        return subprocess.run(["bash", "-c", f"{before} project/run bench export", "bash"], cwd=folder, text=True,
+                              capture_output=True, check=False,
+                              env={"PATH": f"{folder}:/usr/bin:/bin", "AIRYBENCH_INSTALL": "no"})
+
+    def test_surroundings_are_no_obstacle_or_one_line(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name).resolve()
+            for before in ("CDPATH=.:/usr", "export CDPATH=/usr; exec <&-;", "exec 2>&-;", "exec <&- 2>&-;"):
+                ran = self.run_bench(folder, before)
+                self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "bench export\n", ""), before)
+            ran = self.run_bench(folder, "exec >&-;")
+            self.assertEqual((ran.stdout, ran.stderr.count("\n")), ("", 1), ran.stderr)  # the program's, which sees it
+            for before, said in (("TMPDIR=nowhere", "TMPDIR: nowhere: is no folder to write to"),
+                                 ("AIRYBENCH_BUILD_DIR=one/trees",
+                                  f"{folder}/one/trees: cannot be written (AIRYBENCH_BUILD_DIR=FOLDER: build there)")):
+                ran = self.run_bench(folder, before)
+                self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (2, "", f"run: {said}\n"))
+
+    def test_trees_are_where_the_variable_says(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            project = self.project_in(folder)
+            (project / "build").rename(folder / "-trees")
+            ran = self.run_bench(folder, "AIRYBENCH_BUILD_DIR=-trees")
+            self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "bench export\n", ""))
+            self.assertFalse((project / "build").exists())
 
     def test_two_programs_run_in_turn_and_are_compared(self) -> None:
         with tempfile.TemporaryDirectory() as name:

@@ -265,7 +265,7 @@ TEST(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
 
 TEST(Command, WhatComesThenGetsTheFolderAndHasNoSayInTheExitCode) {
   const BenchCommand bench;
-  const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=\"it's\" ";
+  const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=\"-it's\" ";
   const CommandResult result = bench.run(run, "export AIRYBENCH_THEN='ls >said; ls >>said'; ");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(bench.content("said").find("records.jsonl\n"), std::string::npos);
