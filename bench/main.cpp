@@ -7,6 +7,7 @@
 #include <map>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <system_error>
 
@@ -15,7 +16,7 @@
 #include "bench/run/threads_at_hand.hpp"
 #include "solvers/base/blas_library.hpp"
 #include "support/errors.hpp"
-#include "support/terminal.hpp"
+#include "support/messages.hpp"
 #include "support/this_process.hpp"
 
 namespace {
@@ -36,8 +37,8 @@ const std::map<std::string_view, Command> commands = {
 };
 
 // If standard error is full, the exit code reports it.
-int complain(std::string_view what, int exit_code) {
-  std::fprintf(stderr, "bench: %.*s\n", static_cast<int>(what.size()), what.data());
+int complain(const std::string& what, int exit_code) {
+  std::fprintf(stderr, "bench: %s\n", airybench::one_line(what).c_str());
   return exit_code;
 }
 
@@ -90,7 +91,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
   airybench::end_for_lack_of_memory_with("bench: out of memory\n", airybench::did_not_finish);
-  airybench::escape_on_terminals();
+  airybench::show_messages_escaped();
   for (const std::string& lack :
        {airybench::lack_of_stack_or_descriptors(), airybench::lack_of_address_space(1)})
     if (!lack.empty())

@@ -19,6 +19,7 @@
 #include "meshgen/tooth_mesh.hpp"
 #include "support/atomic_file.hpp"
 #include "support/data_folder.hpp"
+#include "support/messages.hpp"
 #include "support/process.hpp"
 #include "support/sha256.hpp"
 #include "support/temporary_folder.hpp"
@@ -156,7 +157,7 @@ int convert_command(const std::filesystem::path& model, const ModelOptions& opti
   }
   print_notes(model, converted->notes);
   if (out == "-") {
-    fmt::print("{}", msh_text(converted->mesh));
+    print_data(msh_text(converted->mesh));
     return 0;
   }
   write_file_atomically(out, msh_text(converted->mesh));
@@ -175,7 +176,10 @@ int show_command(const std::filesystem::path& model, const ModelOptions& options
     const PlaneModel plane = read_model(model, all_shown, about_to_mesh, notes);
     print_notes(model, notes);
     const std::string json = json_of(plane, model_name(model));
-    fmt::print("{}\n", out == "-" ? json : table_of(plane));
+    if (out == "-")
+      print_data(json + "\n");
+    else
+      fmt::print("{}\n", table_of(plane));
     write_file_atomically(folder / curves, json);
   };
   const auto draw = [&](const std::filesystem::path& folder) {
@@ -191,7 +195,7 @@ int scene_command(const std::filesystem::path& deck) {
     const std::optional<DeckScene> scene = scene_of(read_deck_of(deck));
     if (!scene) return 0;
     print_notes(deck, scene->notes);
-    fmt::print("{}", scene->json);
+    print_data(scene->json);
   } catch (const FileError&) {
     throw;
   } catch (const InputError& error) {

@@ -5,13 +5,12 @@
 #include <new>
 #include <stdexcept>
 
+#include "support/messages.hpp"
+
 namespace airybench {
 
 int complain(const std::string& what, int exit_code) {
-  std::string text = what;
-  for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; ++at)
-    if (text.compare(at + 1, 2, "  ") != 0) text[at] = ' ';
-  std::cerr << "meshgen: " << text << "\n";
+  std::cerr << "meshgen: " << one_line(what) << "\n";
   return exit_code;
 }
 

@@ -14,9 +14,9 @@
 #include "meshgen/complaints.hpp"
 #include "support/called_as.hpp"
 #include "support/data_folder.hpp"
+#include "support/messages.hpp"
 #include "support/numbers.hpp"
 #include "support/sign_of_life.hpp"
-#include "support/terminal.hpp"
 #include "support/this_process.hpp"
 
 namespace {
@@ -257,7 +257,7 @@ int parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
   const auto whole_run = [&] {
-    airybench::escape_on_terminals();
+    airybench::show_messages_escaped();
     return parse_and_run(argc, argv);
   };
   return airybench::checked_exit_code(airybench::complained(whole_run), "meshgen");

@@ -11,6 +11,7 @@ from fnmatch import fnmatchcase
 from functools import partial
 from pathlib import Path
 
+from messages import messages_escaped
 from records import RecordsError
 
 PARTS = ".airybench.part"  # a folder of files that are not whole yet
@@ -20,6 +21,12 @@ MADE = ".airybench.made"  # the files of a folder that programs made, a line eac
 def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
         act: Callable[[argparse.Namespace], object], expected: str) -> None:
     """expected: what a place that cannot be written should have been, for the message."""
+    with messages_escaped():
+        run_shown(doc, add_arguments, act, expected)
+
+
+def run_shown(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
+              act: Callable[[argparse.Namespace], object], expected: str) -> None:
     def fail(message: object) -> None:
         print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
         sys.exit(2)
@@ -33,6 +40,7 @@ def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
         if unknown:
             fail(f"unknown '{' '.join(unknown)}' (valid: {', '.join(valid_arguments(parser))})")
         act(arguments)
+        sys.stdout.flush()
     except RecordsError as error:
         fail(error)
     except OSError as error:

@@ -24,6 +24,7 @@ import pandas as pd
 
 import command
 from case_names import case_name
+from messages import escaped
 from records import (FIELDS, FINITE, FLAG, KEYS, NAME, TEXT, Kind, RecordsError, checked, is_text,
                      json_of, lines_file, one_of, read, text_of, with_derived)
 
@@ -216,6 +217,7 @@ def page(history: Path, results: Path | None) -> str:
         records = read(lines, OF_A_CASE)
     data = json.dumps(page_data(nights, records), ensure_ascii=False, allow_nan=False,
                       separators=(",", ":")).replace("<", "\\u003c")
+    data = escaped(data, backslash="\\\\")  # of a string of JSON
     style = part("page.css")
     script = '(() => {\n"use strict";\n' + "\n".join(map(part, SCRIPTS)) + "})();\n"
     fill = {"STYLE": style, "SCRIPT": script, "DATA": data, "STYLE_HASH": hash_of(style),
@@ -237,7 +239,7 @@ def hash_of(text: str) -> str:
 def figures(folder: Path) -> str:
     shown = []
     for file in sorted([*folder.glob("*.png"), *folder.glob("*.gif")]):
-        name = html.escape(file.stem.replace("_", " "))
+        name = html.escape(escaped(file.stem.replace("_", " ")))
         image = base64.b64encode(file.read_bytes()).decode()
         shown.append(f'<figure><button type="button" aria-label="enlarge {name}">'
                      f'<img alt="{name}" src="data:image/{file.suffix[1:]};base64,{image}"></button>'

@@ -3,12 +3,14 @@ from __future__ import annotations
 
 import fnmatch
 import subprocess
+import sys
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
 RESULTS = Path(__file__).resolve().parent
 PROJECT = RESULTS.parent
+sys.path.append(str(PROJECT / "plots"))  # messages.py
 
 
 class Refused(Exception):

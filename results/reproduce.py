@@ -22,6 +22,7 @@ from pathlib import Path
 
 from installing import check, install, row_of, table
 from measuring import Workshop, build, make, pinned, print_forecast
+from messages import messages_escaped
 from parts import PROJECT, RESULTS, Refused, chosen, commit_of, parts_of
 
 
@@ -80,11 +81,12 @@ def main() -> int:
                       help="put what is complete into results/, rewrite the numbers quoted")
     kind.add_argument("--check", action="store_true",
                       help="print revision and dates of the records in results/; exit status 1 if revisions differ")
-    try:
-        return run(parser.parse_args())
-    except (Refused, OSError) as wrong:
-        print(f"reproduce: {wrong}", file=sys.stderr)
-        return 2
+    with messages_escaped():
+        try:
+            return run(parser.parse_args())
+        except (Refused, OSError) as wrong:
+            print(f"reproduce: {wrong}", file=sys.stderr)
+            return 2
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@
 #include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
 #include "support/lists.hpp"
+#include "support/messages.hpp"
 #include "support/this_process.hpp"
 
 namespace airybench {
@@ -124,7 +125,7 @@ int export_command(int argc, const char* const* argv) {
   const auto found = std::ranges::find(formats, format, [](auto& f) { return f.first; });
   const std::string text = found->second(cases, columns.empty() ? Columns() : split_list(columns));
   if (out.empty())
-    fmt::print("{}", text);
+    print_data(text);
   else
     write_file_atomically(out, text);
   return 0;

@@ -3,6 +3,8 @@ import errno
 import fcntl
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 from unittest import mock
 
@@ -79,6 +81,23 @@ class FilesTest(FolderTest):
         replace_all(self.results, {"page": Path.touch})
         self.assertTrue(page.is_symlink())
         self.assertEqual({path.name for path in self.figures.iterdir()}, {self.old.name, "page"})
+
+
+class MessagesTest(FolderTest):
+    def test_names_are_escaped_and_cut(self) -> None:
+        for name, shown in (("Größe ≤ 5", "Größe ≤ 5'"), ("a\u202eb\ufeff\u200b", r"a\u202eb\ufeff\u200b'"),
+                            ("\x1b[31m", r"\x1b[31m'"), ("\udcff", r"\xff'"), ("n" * 5000, "n" * 399 + "…")):
+            status, out, err = run(figures, self.results, name)
+            self.assertEqual((status, out, err.split(" (valid")[0]), (2, "", f"figures.py: unknown '{shown}"))
+
+    def test_closed_and_full_streams(self) -> None:
+        """One line or none, and no traceback."""
+        made_up.write(self.csv, [made_up.case("Mesh0", "3STEPD")])
+        draw = f"'{sys.executable}' '{figures.__file__}' '{self.results}' --only=table1"
+        for streams, status, said in ((">&-", 0, ""), ("<&- >&- 2>&-", 0, ""), (">/dev/full", 2, "figures.py: standard "
+                                      "output: No space left on device; expected a folder to write to\n")):
+            ran = subprocess.run(["bash", "-c", f"{draw} {streams}"], text=True, capture_output=True, check=False)
+            self.assertEqual((ran.returncode, ran.stderr), (status, said), streams)
 
 
 class MadeTest(FolderTest):

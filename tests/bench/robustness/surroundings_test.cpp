@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "support/terminal.hpp"
+#include "support/messages.hpp"
 #include "tests/support/other_user.hpp"
 #include "tests/support/sanitized.hpp"
 
@@ -119,12 +119,30 @@ TEST(Machine, WithoutProcIsNoDefectOfTheProgram) {
   EXPECT_EQ(bench.content("err.txt"), "bench: /proc/self/exe: No such file or directory\n");
 }
 
-TEST(Terminal, ShowsWhatItWouldObey) {
-  EXPECT_EQ(escaped_for_terminal("Größe ≤ 5\t\n"), "Größe ≤ 5\t\n");
-  EXPECT_EQ(escaped_for_terminal("a\x1b[31mb\rc\x7f"), "a\\x1b[31mb\\x0dc\\x7f");
-  EXPECT_EQ(escaped_for_terminal("\u202Ehsm.\u2066\u200F\u061C\u0085"),
+TEST(Messages, ShowWhatATerminalWouldObey) {
+  EXPECT_EQ(escaped("Größe ≤ 5\t\n"), "Größe ≤ 5\t\n");
+  EXPECT_EQ(escaped("a\x1b[31mb\rc\x7f"), "a\\x1b[31mb\\x0dc\\x7f");
+  EXPECT_EQ(escaped("\u202Ehsm.\u2066\u200F\u061C\u0085"),
             "\\u202ehsm.\\u2066\\u200f\\u061c\\u0085");
-  EXPECT_EQ(escaped_for_terminal("\xffx\xc3\xe2\x82"), "\\xffx\\xc3\\xe2\\x82");
+  EXPECT_EQ(escaped("\xffx\xc3\xe2\x82"), "\\xffx\\xc3\\xe2\\x82");
+}
+
+TEST(Messages, ShowNamesEscapedAndCutWhereverTheyGo) {
+  const BenchCommand bench;
+  const std::string hostile = "M\u202Eod\uFEFF\x1b[31m\nbench: ok", name = std::string(5000, 'n');
+  for (const char* option : {"--mesh=", "--scene=", "--method=", "--external=", "--problem=",
+                             "--filter=(", "--study=", "--role=", "--", "claims ", "merge ",
+                             "replay ", "export --format=", "solve ", "advise --mesh="}) {
+    const CommandResult said = bench.run(option + ("'" + hostile + "'"));
+    EXPECT_EQ(said.code, 2) << option;
+    EXPECT_EQ(std::ranges::count(said.err, '\n'), 1) << said.err;
+    for (const char* obeyed : {"\x1b", "\u202E", "\uFEFF"})
+      EXPECT_EQ(said.err.find(obeyed), said.err.npos) << said.err;
+    const CommandResult cut = bench.run(option + name);
+    EXPECT_EQ(cut.code, 2) << option;
+    EXPECT_EQ(cut.err.find(std::string(401, 'n')), cut.err.npos) << cut.err;
+    EXPECT_LT(cut.err.size(), 4100u) << cut.err;
+  }
 }
 
 // script is a terminal. The records keep the name.
