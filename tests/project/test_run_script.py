@@ -175,6 +175,17 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
                 ran = self.run_bench(folder, before)
                 self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (2, "", f"run: {said}\n"))
 
+    def test_folders_that_cmake_cannot_have_are_refused(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            project = Path(name, "project")
+            self.project_in(Path(name))
+            for character, status in zip('"#;[]\\\n$ \'(&%ß', 7 * [2] + 8 * [0]):
+                other = project.rename(Path(name, f"a{character}b"))
+                ran = subprocess.run([other / "run", "bench", "export"], text=True, capture_output=True, check=False,
+                                     env={"PATH": f"{name}:/usr/bin:/bin", "AIRYBENCH_INSTALL": "no"})
+                self.assertEqual((ran.returncode, ran.stderr.count("\n")), (status, status // 2), ran.stderr)
+                project = other
+
     def test_trees_are_where_the_variable_says(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
