@@ -17,8 +17,8 @@ program_of() {
     realpath -- "$1"
     return
   fi
-  if ! revision=$(git -C "$project" rev-parse --quiet --verify "$1^{commit}"); then
-    echo "run: compare: $1 (allowed: a git revision, or a program)" >&2
+  if ! revision=$(git -C "$project" rev-parse --quiet --verify "$1^{commit}" 2>&1); then
+    echo "run: compare: $1 (allowed: a git revision, or a program)${revision:+: ${revision%%$'\n'*}}" >&2
     exit 2
   fi
   source=$trees/compare/$revision

@@ -59,6 +59,7 @@ class DocumentationTest(unittest.TestCase):
         example = PROJECT / "tests/solvers/example/three_step_simplicial.cpp"
         self.assertLessEqual(len(example.read_text(encoding="utf-8").splitlines()), 40)
 
+    @unittest.skipUnless((PROJECT / ".git").exists(), "only a clone knows which files are the project's")
     def test_every_variable_is_in_the_table(self) -> None:
         text = (PROJECT / "docs/building-and-testing.md").read_text(encoding="utf-8")
         rows = re.findall(r"^\| (`AIRYBENCH_\w+`(?:, `AIRYBENCH_\w+`)*) \|", text, re.M)
