@@ -28,6 +28,7 @@ import matplotlib
 import command
 from documents import documents_of
 from drawing import STYLE, Drawing, for_papers
+from messages import in_figures
 from records import Row, read_run, rows_of
 from selection import comparable, grouped, has_other_solver
 from words import cases_by_reason
@@ -98,7 +99,10 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None, vector: bool =
 def draw(args: argparse.Namespace) -> None:
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
-    draw_all(rows_of(read_run(args.results)), args.out or args.results / "figures", args.only,
+    table = read_run(args.results)
+    for name in ("mesh", "scene", "body", "method", "general_name", "family"):
+        table[name] = table[name].map(in_figures)
+    draw_all(rows_of(table), args.out or args.results / "figures", args.only,
              args.vector)
 
 

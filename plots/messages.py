@@ -23,6 +23,12 @@ def escaped(text: str, backslash: str = "\\") -> str:
     return "".join(map(shown, text))
 
 
+def in_figures(name: str, most: int = 60) -> str:
+    """A name that has room, and glyphs that show."""
+    name = escaped(name)
+    return name if len(name) <= most else f"{name[:most // 2]}…{name[-(most // 2 - 1):]}"
+
+
 class Messages(io.TextIOBase):
     def __init__(self, stream: TextIO) -> None:
         self.stream = stream

@@ -65,7 +65,8 @@ def is_number(value: object) -> bool:
 
 
 def is_text(value: object) -> bool:
-    return isinstance(value, str)
+    """Of characters: half of one is equal to any other half, for pandas."""
+    return isinstance(value, str) and not re.search("[\ud800-\udfff]", value)
 
 
 def is_split(value: object) -> bool:

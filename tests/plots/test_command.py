@@ -14,7 +14,7 @@ import drawing as sheets
 import figures
 from command import MADE, PARTS, Made, replace_all
 from records import RecordsError
-from running import FolderTest, run
+from running import FolderTest, run, run_command
 
 
 class FilesTest(FolderTest):
@@ -89,6 +89,12 @@ class MessagesTest(FolderTest):
                             ("\x1b[31m", r"\x1b[31m'"), ("\udcff", r"\xff'"), ("n" * 5000, "n" * 399 + "…")):
             status, out, err = run(figures, self.results, name)
             self.assertEqual((status, out, err.split(" (valid")[0]), (2, "", f"figures.py: unknown '{shown}"))
+
+    def test_figures_have_room_for_any_name(self) -> None:
+        long, hidden = "n" * 5000, "a\u202eb\x1bc字"
+        made_up.write(self.csv, [made_up.case(mesh + name, f"EXTERNAL:{name}") for name in (long, hidden)
+                                 for mesh in ("Mesh0", "Mesh1")])
+        self.assertEqual(run_command(figures, self.results, "--only=all_methods,figure4")[::2], (0, ""))
 
     def test_closed_and_full_streams(self) -> None:
         """One line or none, and no traceback."""
