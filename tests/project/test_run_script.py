@@ -69,9 +69,13 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
                              {f"run: another ./run installs or builds in {folder}: waiting for it"})
 
     def test_memory_bounds_the_compilers(self) -> None:
-        for kibibytes, processors, compilers in ((8 << 20, 4, 4), (3 << 20, 64, 3), (1 << 19, 64, 1)):
-            ran = self.call("compilers", stubs={"awk": f"echo {kibibytes}", "nproc": f"echo {processors}"})
-            self.assertEqual(ran.stdout, f"{compilers}\n", ran.stderr)
+        for kibibytes, limit, processors, compilers in ((8 << 20, "max", 4, 4), (3 << 20, "max", 64, 3),
+                                                        (1 << 19, "max", 64, 1), (8 << 20, 2 << 30, 4, 2)):
+            memory = f"echo 'MemAvailable: {kibibytes} kB'; echo {limit}"
+            ran = self.call("compilers", stubs={"cat": memory, "nproc": f"echo {processors}"})
+            self.assertEqual((ran.stdout, ran.stderr), (f"{compilers}\n", ""))
+        ran = self.call("compilers", stubs={"cat": "exit 1"})  # neither is known
+        self.assertEqual((ran.stdout, ran.stderr), ("1\n", ""))
 
     def test_a_link_is_the_checkout_that_it_leads_to(self) -> None:
         with tempfile.TemporaryDirectory() as name:
