@@ -16,8 +16,8 @@ Formats  matrix-market  a .mtx file for every array
                         numpy.load()
          fclib          problem.hdf5, the condensed contact problem as Siconos and LMGC90 read it
 
-With them problem.json: equations, signs, and of every array its file, shape, unit and meaning. In
-docs/exporting-problems.md is a solver that reads them.
+With them problem.json: equations, signs, and of every array its file, shape, unit and meaning.
+peers/scipy/solve_problem.py is a solver that reads them.
 
 Exit status  0  written
              2  wrong usage, or a problem that cannot be exported: one line on standard error

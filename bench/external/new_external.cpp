@@ -16,7 +16,7 @@
 namespace airybench {
 namespace {
 
-// In the style of docs/exporting-problems.md, whose equations it solves.
+// In the style of peers/scipy/solve_problem.py; the equations are in docs/exporting-problems.md.
 constexpr const char* program_text =
     R"py("""Contact forces of a condensed problem:  {0}.py INPUT OUTPUT  (docs/external-solvers.md)
 
