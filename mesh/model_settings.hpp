@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 namespace airybench {
 
@@ -23,7 +24,20 @@ inline constexpr ModelSetting mesh_size_setting = {
     "sizes, 50%"};
 inline constexpr ModelSetting length_unit_setting = {"--length-unit", "UNIT",
                                                      "unit of a model's lengths: mm, m, inch"};
-inline constexpr std::array model_settings = {role_setting, parameter_setting, mesh_size_setting,
-                                              length_unit_setting};
+// Of the process that reads the model: they change no mesh.
+inline constexpr double default_model_time_s = 900, default_model_memory_MiB = 4096;
+inline constexpr ModelSetting model_time_setting = {
+    "--model-time", "SECONDS", "that reading and meshing a model may take (default: 900)"};
+inline constexpr ModelSetting model_memory_setting = {
+    "--model-memory", "MIB", "of memory that reading and meshing a model may take (default: 4096)"};
+inline constexpr std::array model_settings = {role_setting,       parameter_setting,
+                                              mesh_size_setting,  length_unit_setting,
+                                              model_time_setting, model_memory_setting};
+
+// setting: "--option=value".
+inline bool is_model_limit(std::string_view setting) {
+  return setting.starts_with(model_time_setting.option) ||
+         setting.starts_with(model_memory_setting.option);
+}
 
 }  // namespace airybench

@@ -188,20 +188,22 @@ int show_command(const std::filesystem::path& model, const ModelOptions& options
   return in_a_child(model, options, show, draw);
 }
 
-int scene_command(const std::filesystem::path& deck) {
+int scene_command(const std::filesystem::path& deck, const ModelOptions& options) {
   if (format_of(deck) != ModelFormat::abaqus)
     throw std::invalid_argument(fmt::format("--scene: '{}' (allowed: an .inp)", deck.string()));
-  try {
-    const std::optional<DeckScene> scene = scene_of(read_deck_of(deck));
-    if (!scene) return 0;
-    print_notes(deck, scene->notes);
-    print_data(scene->json);
-  } catch (const FileError&) {
-    throw;
-  } catch (const InputError& error) {
-    throw FileError(fmt::format("{}: {}", deck.string(), error.what()));
-  }
-  return 0;
+  const auto print = [&](const ModelOptions&, const AboutToMesh&, const std::filesystem::path&) {
+    try {
+      const std::optional<DeckScene> scene = scene_of(read_deck_of(deck));
+      if (!scene) return;
+      print_notes(deck, scene->notes);
+      print_data(scene->json);
+    } catch (const FileError&) {
+      throw;
+    } catch (const InputError& error) {
+      throw FileError(fmt::format("{}: {}", deck.string(), error.what()));
+    }
+  };
+  return in_a_child(deck, options, print, [](const std::filesystem::path&) {});
 }
 
 int modify_command(const std::string& name, const std::filesystem::path& repository,

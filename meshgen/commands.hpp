@@ -38,8 +38,8 @@ int show_command(const std::filesystem::path& model, const ModelOptions& options
                  const std::filesystem::path& out);
 
 // Prints what an input deck prescribes as a scene; nothing where it is a mesh only. Notes go to
-// standard error.
-int scene_command(const std::filesystem::path& deck);
+// standard error. options: their limits hold.
+int scene_command(const std::filesystem::path& deck, const ModelOptions& options);
 
 // Writes a changed mesh; `mesh` is a file, or a name in `repository`.
 int modify_command(const std::string& mesh, const std::filesystem::path& repository,

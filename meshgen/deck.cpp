@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "meshgen/announced_counts.hpp"
 #include "support/errors.hpp"
 #include "support/shortened.hpp"
 
@@ -201,6 +202,7 @@ class DeckReader {
         if (in_capitals(deck_.full_name(field, block)) == in_capitals(name))
           line.fail(fmt::format("set {} holds itself", name));
         const std::vector<long> more = deck_.members(sets, field, block, line);
+        count_members(more.size(), line);
         set.insert(set.end(), more.begin(), more.end());
       }
       return;
@@ -211,7 +213,16 @@ class DeckReader {
                step = fields.size() > 2 && !fields[2].empty() ? line.whole(fields[2]) : 1;
     if (step < 1) line.fail("GENERATE: allowed: a step of 1 or more");
     for (auto at = members.lower_bound(first); at != members.end() && at->first <= last; ++at)
-      if ((at->first - first) % step == 0) set.push_back(at->first);
+      if ((at->first - first) % step == 0) {
+        count_members(1, line);
+        set.push_back(at->first);
+      }
+  }
+
+  void count_members(std::size_t more, const DeckLine& line) {
+    members_ += more;
+    if (members_ > most_entries)
+      line.fail("all sets together have more than 1e7 members (allowed: up to that)");
   }
 
   void add_to_surface(const DeckBlock& block, const DeckLine& line) {
@@ -284,6 +295,7 @@ class DeckReader {
 
   Deck deck_;
   std::map<long, std::string> set_of_keyword_;  // of *ELEMENT
+  std::size_t members_ = 0;                     // of sets, as often as they are named
   std::map<std::string, std::set<long>, WithoutCase> node_surfaces_;
   DeckNames given_sets_, sections_;  // of *ELSET, of *SOLID SECTION and its like
 };

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "meshgen/announced_counts.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
 #include "support/numbers.hpp"
@@ -21,6 +22,9 @@ std::string trimmed(const std::string& text) {
   return first == text.npos ? "" : text.substr(first, last - first + 1);
 }
 
+constexpr const char* too_many_lines =
+    "more lines, with included files and every instance of a part, than 1e7 (allowed: up to that)";
+
 class BlockReader {
  public:
   BlockReader(std::filesystem::path folder, std::vector<DeckBlock>& blocks)
@@ -33,6 +37,7 @@ class BlockReader {
     bool goes_on = false;  // a keyword's line that ends with a comma
     for (std::string line; std::getline(lines, line);) {
       ++number;
+      if (++lines_ > most_entries) throw InputError(too_many_lines);
       line.erase(0, std::min(line.find_first_not_of(" \t"), line.size()));
       if (line.starts_with("**") || line.find_first_not_of(" \t\r") == line.npos) continue;
       const DeckLine here{line, fmt::format("{}line {}", prefix, number)};
@@ -87,6 +92,7 @@ class BlockReader {
 
   std::filesystem::path folder_;
   std::vector<DeckBlock>& blocks_;
+  std::size_t lines_ = 0;  // of included files, too
 };
 
 // From the part's place: moved by the first line, then turned about the second's axis.
@@ -109,12 +115,17 @@ Eigen::Isometry3d placed(const DeckBlock& instance) {
 
 // Replaces *INSTANCE by the blocks of its part.
 DeckFile with_instances(std::vector<DeckBlock> blocks) {
-  std::map<std::string, std::vector<DeckBlock>> parts;
+  struct Part {
+    std::vector<DeckBlock> blocks;
+    std::size_t instances = 0;
+  };
+  std::map<std::string, Part> parts;
   for (const DeckBlock& block : blocks)
-    if (block.keyword == "INSTANCE") parts[in_capitals(block.value("PART"))];
+    if (block.keyword == "INSTANCE") ++parts[in_capitals(block.value("PART"))].instances;
   DeckFile file;
-  std::vector<DeckBlock>* part = nullptr;
+  Part* part = nullptr;
   int instance = -1;
+  std::size_t lines = 0;
   for (DeckBlock& block : blocks) {
     if (block.keyword == "PART") {
       const auto found = parts.find(in_capitals(block.value("NAME")));
@@ -124,7 +135,7 @@ DeckFile with_instances(std::vector<DeckBlock> blocks) {
     } else if (block.keyword == "INSTANCE") {
       instance = static_cast<int>(file.instances.size());
       file.instances.push_back({block.value("NAME"), placed(block)});
-      for (DeckBlock copy : parts.at(in_capitals(block.value("PART")))) {
+      for (DeckBlock copy : parts.at(in_capitals(block.value("PART"))).blocks) {
         copy.instance = instance;
         file.blocks.push_back(std::move(copy));
       }
@@ -132,7 +143,9 @@ DeckFile with_instances(std::vector<DeckBlock> blocks) {
       instance = -1;
     } else if (block.keyword != "ASSEMBLY" && block.keyword != "END ASSEMBLY") {
       block.instance = instance;
-      (part != nullptr ? *part : file.blocks).push_back(std::move(block));
+      lines += (1 + block.data.size()) * (part != nullptr ? part->instances : 1);
+      if (lines > most_entries) throw InputError(too_many_lines);
+      (part != nullptr ? part->blocks : file.blocks).push_back(std::move(block));
     }
   }
   return file;

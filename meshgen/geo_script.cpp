@@ -1,18 +1,23 @@
 #include "meshgen/geo_script.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string_view>
 
 #include "mesh/model_format.hpp"
+#include "meshgen/announced_counts.hpp"
 #include "meshgen/deck_blocks.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
 #include "support/gzip.hpp"
 #include "support/lists.hpp"
+#include "support/numbers.hpp"
 
 namespace airybench {
 namespace {
@@ -122,12 +127,16 @@ const std::set<std::string>& harmless() {
   return words;
 }
 
+// A longer index may be one, too, that is then not known.
+constexpr std::size_t longest_index = 100;
+
 bool is_definition(const std::vector<Token>& tokens, std::size_t at) {
   std::size_t next = at + 1;
+  const std::size_t end = std::min(tokens.size(), next + longest_index);
   const auto is = [&](const char* sign) { return next < tokens.size() && tokens[next].is(sign); };
   for (const auto& [open, close] : {std::pair("(", ")"), {"[", "]"}, {"{", "}"}})
     if (is(open)) {
-      while (next < tokens.size() && !is(close)) ++next;
+      while (next < end && !is(close)) ++next;
       ++next;
     }
   for (const char* sign : {"+", "-", "*", "/"})
@@ -157,6 +166,48 @@ bool has_unknown_words(const std::vector<Token>& tokens, const GeoScript& script
     if (!harmless().contains(token.text) && (is_member || !own.contains(token.text))) return true;
   }
   return false;
+}
+
+// A number of several tokens, "-1.5e+12", from `at` on, which is then behind it.
+std::optional<double> number_at(const std::vector<Token>& tokens, std::size_t& at) {
+  std::string text;
+  std::size_t next = at;
+  const auto is = [&](const char* sign) { return next < tokens.size() && tokens[next].is(sign); };
+  const auto take = [&] { text += tokens[next++].text; };
+  const auto take_word = [&] {
+    if (next < tokens.size() && tokens[next].kind == Token::word) take();
+  };
+  if (is("-")) take();
+  take_word();
+  if (is(".")) {
+    take();
+    take_word();
+  }
+  if ((text.ends_with('e') || text.ends_with('E')) && (is("+") || is("-"))) {
+    take();
+    take_word();
+  }
+  const std::optional<double> number = parse_number(text);
+  if (number) at = next;
+  return number;
+}
+
+// Of those written with numbers, first:last:step: Gmsh takes memory for all before it begins. A
+// loop's needs none.
+void refuse_long_lists(const std::vector<Token>& tokens, const std::filesystem::path& file) {
+  for (std::size_t at = 0; at < tokens.size(); ++at) {
+    const bool is_loop = at >= 2 && (tokens[at - 2].is("In") || tokens[at - 2].is("For"));
+    std::size_t next = at;
+    const std::optional<double> first = number_at(tokens, next);
+    if (!first || next >= tokens.size() || !tokens[next].is(":")) continue;
+    const std::optional<double> last = number_at(tokens, ++next);
+    double step = 1;
+    if (next < tokens.size() && tokens[next].is(":"))
+      step = number_at(tokens, ++next).value_or(step);
+    if (last && !is_loop && !(std::abs((*last - *first) / step) <= most_entries))
+      throw FileError(fmt::format("{}: a list of the numbers {} to {} (allowed: up to 1e7 numbers)",
+                                  file.string(), *first, *last));
+  }
 }
 
 // The names that a definition list [a = …, b = {…}] gives values to; returns the index behind it.
@@ -193,6 +244,8 @@ void read_included(GeoScript& script, const std::filesystem::path& file) {
 void read_into(GeoScript& script, const std::filesystem::path& file, const std::string& text) {
   script.files.push_back(file);
   const std::vector<Token> tokens = tokens_of(text);
+  refuse_long_lists(tokens, file);
+  bool prints = false;
   for (std::size_t at = 0; at + 1 < tokens.size(); ++at) {
     const Token &token = tokens[at], &next = tokens[at + 1];
     if (is_one_of(token, outside)) script.is_self_contained = false;
@@ -201,9 +254,9 @@ void read_into(GeoScript& script, const std::filesystem::path& file, const std::
     if (token.is("ExternalProcess")) script.has_external_process = true;
     if (token.is("Name") && next.kind == Token::literal) script.onelab_names.insert(next.text);
     if (token.is("DefineConstant") && next.is("[")) read_definitions(tokens, at + 1, script);
-    if (token.is("Printf") || token.is("Error") || token.is("Warning"))
-      for (std::size_t k = at; k < tokens.size() && !tokens[k].is(";"); ++k)
-        script.may_write |= tokens[k].is(">");
+    if (token.is("Printf") || token.is("Error") || token.is("Warning")) prints = true;
+    if (token.is(";")) prints = false;
+    script.may_write |= prints && token.is(">");
     if (!is_one_of(token, readers)) continue;
     const bool is_literal =
         next.kind == Token::literal && at + 2 < tokens.size() && tokens[at + 2].is(";");

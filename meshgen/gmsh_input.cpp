@@ -6,8 +6,10 @@
 #include <cctype>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "mesh/model_format.hpp"
+#include "meshgen/announced_counts.hpp"
 #include "meshgen/deck_scene.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
@@ -21,11 +23,14 @@ namespace {
 // empty lines; other data as they are.
 std::string tidied(const std::string& text, bool has_empty_lines) {
   if (text.find('\0') != text.npos) return text;
-  std::istringstream lines(text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0));
+  std::string_view left = text;
+  left.remove_prefix(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
   std::string out;
-  for (std::string line; std::getline(lines, line);) {
-    line.resize(line.find_last_not_of(" \t\r") + 1);
-    if (has_empty_lines || !line.empty()) out += line + '\n';
+  while (!left.empty()) {
+    std::string_view line = left.substr(0, left.find('\n'));
+    left.remove_prefix(std::min(line.size() + 1, left.size()));
+    line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+    if (has_empty_lines || !line.empty()) out.append(line) += '\n';
   }
   return out;
 }
@@ -152,6 +157,7 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
     give(mesh_name, msh_of(deck, curves_of(deck)));
   } else if (format == ModelFormat::mesh || format == ModelFormat::outline) {
     const bool is_outline = format == ModelFormat::outline;
+    refuse_counts_beyond(text, is_outline);
     const std::string tidy = tidied(text, !is_outline);
     if (is_outline && !is_binary) check_stl(tidy);
     for (const char* of_text : {".unv", ".bdf", ".mesh"})
@@ -159,6 +165,7 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
         throw InputError("it holds the byte 0 (allowed: text)");
     if (tidy != text) give(is_gzipped(model) ? model.stem() : model.filename(), tidy);
   } else {
+    refuse_counts_beyond(text);
     const std::string tidy = tidied(text, false);
     const std::size_t begin = begin_of_mesh(tidy);
     if (begin == tidy.npos)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "meshgen/gmsh_mesher.hpp"
 #include "support/errors.hpp"
 #include "support/process.hpp"
+#include "support/seconds_since.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/this_process.hpp"
 
@@ -21,6 +23,7 @@ namespace {
 
 struct Attempt {
   ChildEnd end;
+  std::string passed_limit;              // what to say of it
   std::optional<std::string> algorithm;  // that Gmsh had begun to mesh with
   bool is_crash() const { return end.signal != 0 && end.signal != SIGKILL; }
 };
@@ -38,7 +41,8 @@ void refuse_if_it_needs_confinement(const std::filesystem::path& model, bool wri
 }
 
 // scratch: what a crash leaves is removed with it.
-Attempt attempt(const std::filesystem::path& model, const std::filesystem::path& scratch,
+Attempt attempt(const std::filesystem::path& model, const ModelLimits& limits,
+                const std::filesystem::path& scratch,
                 const std::function<void(const AboutToMesh&)>& work) {
   ChildProcess child([&](Channel& channel) {
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
@@ -54,9 +58,30 @@ Attempt attempt(const std::filesystem::path& model, const std::filesystem::path&
     _exit(checked_exit_code(complained(confined), "meshgen"));
   });
   Attempt made;
-  while (const std::optional<std::string> line = child.ask("")) made.algorithm = line;
+  const auto begun = std::chrono::steady_clock::now();
+  double suspended_s = 0;
+  const auto passes_a_limit = [&](double further_s) {
+    suspended_s += further_s;
+    if (seconds_since(begun) - suspended_s > limits.time_s)
+      made.passed_limit = fmt::format("more than {:g} s (more with {}=SECONDS)", limits.time_s,
+                                      model_time_setting.option);
+    else if (static_cast<double>(resident_peak_bytes(child.pid())) > limits.memory_MiB * (1 << 20))
+      made.passed_limit = fmt::format("more than {:g} MiB of memory (more with {}=MIB)",
+                                      limits.memory_MiB, model_memory_setting.option);
+    return !made.passed_limit.empty();
+  };
+  while (const std::optional<std::string> line = child.ask("", passes_a_limit))
+    made.algorithm = line;
   made.end = child.end();
   return made;
+}
+
+int complain_of_limit(const std::filesystem::path& model, const Attempt& made) {
+  return complain(fmt::format("{}: {} took {}", model.string(),
+                              made.algorithm ? "meshing it (--mesh-size=200% makes fewer triangles)"
+                                             : "reading it",
+                              made.passed_limit),
+                  exit_failure);
 }
 
 }  // namespace
@@ -66,9 +91,10 @@ int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
                                         const std::filesystem::path& folder)>& work,
                const InFolder& take) {
   const TemporaryFolder scratch;
-  const Attempt first = attempt(model, scratch.path(), [&](const AboutToMesh& begin) {
-    work(options, begin, scratch.path());
-  });
+  const Attempt first =
+      attempt(model, options.limits, scratch.path(),
+              [&](const AboutToMesh& begin) { work(options, begin, scratch.path()); });
+  if (!first.passed_limit.empty()) return complain_of_limit(model, first);
   if (first.end.exit_code == no_memory_exit_code)
     return complain(model.string() + ": out of memory", exit_failure);
   if (first.end.signal == 0) {
@@ -84,8 +110,10 @@ int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
   ModelOptions with_6 = options;
   with_6.algorithm = 6;
   const TemporaryFolder other;
-  const Attempt second = attempt(
-      model, other.path(), [&](const AboutToMesh& begin) { work(with_6, begin, other.path()); });
+  const Attempt second =
+      attempt(model, options.limits, other.path(),
+              [&](const AboutToMesh& begin) { work(with_6, begin, other.path()); });
+  if (!second.passed_limit.empty()) return complain_of_limit(model, second);
   if (second.end.signal != 0)
     return complain(cause + (first.algorithm && first.algorithm != "6" ? ", and with 6" : ""),
                     exit_failure);

@@ -31,7 +31,7 @@ struct Arguments {
   airybench::MeshTransform transform;
   std::vector<double> grade, slivers, stretch, move_mm, layers;
   std::vector<std::string> roles, parameters;
-  std::string mesh_size, length_unit;
+  std::string mesh_size, length_unit, model_time, model_memory;
 };
 
 constexpr std::array modes = {"--mesh", "--check", "--tooth", "--convert",
@@ -70,12 +70,14 @@ void declare_model_settings(CLI::App& app, Arguments& a) {
   const auto declare = [&](const airybench::ModelSetting& setting, auto& value) {
     return app.add_option(setting.option, value, setting.help)
         ->type_name(setting.type)
-        ->group("With --convert, --show");
+        ->group("With --convert, --show");  // the last two with --scene, too
   };
   declare(airybench::role_setting, a.roles)->allow_extra_args(false);
   declare(airybench::parameter_setting, a.parameters)->allow_extra_args(false);
   declare(airybench::mesh_size_setting, a.mesh_size);
   declare(airybench::length_unit_setting, a.length_unit);
+  declare(airybench::model_time_setting, a.model_time);
+  declare(airybench::model_memory_setting, a.model_memory);
 }
 
 void declare(CLI::App& app, Arguments& a) {
@@ -188,7 +190,8 @@ void check_usage(const CLI::App& app, const Arguments& a) {
     throw std::invalid_argument(
         fmt::format("--out: '{}'; a file name ending in .png is needed, or -", a.out));
   for (const airybench::ModelSetting& setting : airybench::model_settings)
-    if (app.count(setting.option) > 0 && a.model.empty() && a.to_show.empty())
+    if (app.count(setting.option) > 0 && a.model.empty() && a.to_show.empty() &&
+        (a.deck.empty() || !airybench::is_model_limit(setting.option)))
       throw std::invalid_argument(fmt::format("{}: it needs --convert or --show", setting.option));
   if (a.check && app.count("--out") > 0)
     throw std::invalid_argument("--out does not go with --check, which writes nothing");
@@ -214,13 +217,14 @@ int run(const CLI::App& app, const Arguments& a) {
     return airybench::tooth_command(
         a.dimensions, a.edges,
         app.count("--vertices") > 0 ? std::optional(a.vertices) : std::nullopt, a.out);
-  const airybench::ModelOptions options =
+  airybench::ModelOptions options =
       airybench::model_options_of(a.roles, a.parameters, a.mesh_size, a.length_unit);
+  options.limits = airybench::model_limits_of(a.model_time, a.model_memory);
   if (app.count("--convert") > 0) return airybench::convert_command(a.model, options, a.out);
   if (app.count("--show") > 0)
     return airybench::show_command(
         a.to_show, options, a.out.empty() ? airybench::model_name(a.to_show) + ".png" : a.out);
-  if (app.count("--scene") > 0) return airybench::scene_command(a.deck);
+  if (app.count("--scene") > 0) return airybench::scene_command(a.deck, options);
   if (app.count("--modify") > 0)
     return airybench::modify_command(a.to_modify, a.repository, transform_of(a), layers_of(a),
                                      a.out);

@@ -44,9 +44,11 @@ void set_size(const std::string& text, ModelOptions& options) {
   const bool is_factor = text.ends_with('%');
   const std::optional<double> number =
       parse_number(is_factor ? text.substr(0, text.size() - 1) : text);
-  if (!number || !(*number > 0 && *number <= most))
+  constexpr double least_percent = 0.01;  // 1e8 triangles for each
+  if (!number || !(*number > 0 && *number <= most) || (is_factor && *number < least_percent))
     refuse_argument("--mesh-size", text,
-                    "the longest edge in mm, as 0.5, or a part of the model's sizes, as 50%");
+                    "the longest edge in mm, as 0.5, or a part of the model's sizes, as 50%, of "
+                    "0.01% or more");
   if (is_factor)
     options.size_factor = *number / 100;
   else
@@ -83,6 +85,21 @@ ModelOptions model_options_of(const std::vector<std::string>& roles,
   if (!mesh_size.empty()) set_size(mesh_size, options);
   if (!length_unit.empty()) options.length_unit_mm = length_unit_mm(length_unit);
   return options;
+}
+
+ModelLimits model_limits_of(const std::string& time_s, const std::string& memory_MiB) {
+  ModelLimits limits;
+  const auto read = [](const ModelSetting& setting, const std::string& text, double most,
+                       double& limit) {
+    if (text.empty()) return;
+    const std::optional<double> number = parse_number(text);
+    if (!number || !(*number > 0 && *number <= most))
+      refuse_argument(setting.option, text, fmt::format("above 0, up to {:g}", most));
+    limit = *number;
+  };
+  read(model_time_setting, time_s, 1e9, limits.time_s);
+  read(model_memory_setting, memory_MiB, 1e9, limits.memory_MiB);
+  return limits;
 }
 
 std::string text_of(const ModelOptions& options) {

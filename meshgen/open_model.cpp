@@ -159,20 +159,59 @@ void set_sizes(const ModelOptions& options, double mm_per_unit) {
     gmsh::option::setNumber(bound, std::min(option(bound), longest));
 }
 
-// An equilateral triangle has √3/4 of its edge's square; the box is at least as large as the body.
-void refuse_countless_triangles(double longest_edge) {
-  constexpr double most = 2e7;
+// At most that of its box, which is all there is of a boundary that does not close.
+double area_of(int surface) {
+  std::array<double, 6> box;
+  gmsh::model::getBoundingBox(2, surface, box[0], box[1], box[2], box[3], box[4], box[5]);
+  const Eigen::Vector3d low(box[0], box[1], box[2]), high(box[3], box[4], box[5]);
+  Eigen::Index flat = 0;
+  (high - low).minCoeff(&flat);
+  const Eigen::Index first = flat == 0 ? 1 : 0, second = flat == 2 ? 1 : 2;
+  const auto in_plane = [&](const Eigen::Vector3d& x) {
+    return Eigen::Vector2d(x[first], x[second]);
+  };
+  gmsh::vectorpair curves;
+  gmsh::model::getBoundary({{2, surface}}, curves, /*combined=*/false, /*oriented=*/true);
   double area = 0;
-  for (const int surface : numbers_of(entities(2))) {
-    double x0, y0, z0, x1, y1, z1;
-    gmsh::model::getBoundingBox(2, surface, x0, y0, z0, x1, y1, z1);
-    const double dx = x1 - x0, dy = y1 - y0, dz = z1 - z0;
-    area += std::max({dx * dy, dy * dz, dz * dx});
+  std::vector<double> begin, end, parameters, xyz;
+  for (const auto& [dimension, curve] : curves) {
+    constexpr int parts = 32;
+    gmsh::model::getParametrizationBounds(1, std::abs(curve), begin, end);
+    parameters.clear();
+    for (int k = 0; k <= parts; ++k)
+      parameters.push_back(begin.at(0) + (end.at(0) - begin.at(0)) * k / parts);
+    gmsh::model::getValue(1, std::abs(curve), parameters, xyz);
+    for (std::size_t k = 3; k + 2 < xyz.size(); k += 3)
+      area += (curve < 0 ? -1 : 1) * cross_area(in_plane((low + high) / 2),
+                                                in_plane(Eigen::Vector3d(&xyz[k - 3])),
+                                                in_plane(Eigen::Vector3d(&xyz[k])));
   }
-  if (const double triangles = area / (std::sqrt(3) / 4 * longest_edge * longest_edge);
-      triangles > most)
+  const Eigen::Vector2d sides = in_plane(high - low);
+  return std::min(std::abs(area) / 2, sides.x() * sides.y());
+}
+
+// An equilateral triangle has √3/4 of its edge's square.
+double triangles_with(double longest_edge) {
+  double area = 0;
+  for (const int surface : numbers_of(entities(2))) area += area_of(surface);
+  return area / (std::sqrt(3) / 4 * longest_edge * longest_edge);
+}
+
+// Gmsh's numbers overflow where there are countless edges: it then makes a coarse mesh. Before
+// many triangles, which take minutes, says how many; bounds alone are known, no sizes at points.
+void estimate_triangles(const std::filesystem::path& file, const ModelOptions& options) {
+  constexpr double unbounded = 1e20, many = 1e6, most = 2e7;
+  const double longest = option("Mesh.MeshSizeMax") * option("Mesh.MeshSizeFactor");
+  if (longest > unbounded) return;
+  const double triangles = triangles_with(longest);
+  const char* const asked_by =
+      options.longest_edge_mm || options.size_factor ? "--mesh-size" : "its Mesh.MeshSizeMax";
+  if (triangles > most)
     throw InputError(
-        fmt::format("--mesh-size: about {:.1g} triangles (allowed: up to {:g})", triangles, most));
+        fmt::format("about {:.1g} triangles: {} (allowed: up to {:g})", triangles, asked_by, most));
+  if (triangles > many)
+    fmt::print(stderr, "note: {}: about {:.1g} triangles: {}\n", file.string(), triangles,
+               asked_by);
 }
 
 // Transfinite curves keep their edges.
@@ -341,8 +380,7 @@ OpenModel::OpenModel(const std::filesystem::path& file, const ModelOptions& opti
     set_sizes(options, mm_per_unit_);
     refuse_huge();
     refuse_crossing_lines();
-    if (options.longest_edge_mm)
-      refuse_countless_triangles(*options.longest_edge_mm / mm_per_unit_);
+    estimate_triangles(file, options);
     generate(options, about_to_mesh);
     if (options.longest_edge_mm) note_longest_edge(*options.longest_edge_mm / mm_per_unit_, notes);
   } else if (options.size_factor || options.longest_edge_mm) {

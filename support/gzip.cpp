@@ -27,6 +27,7 @@ class Inflation {
     // zlib's interface lacks const; inflate() does not write to its input.
     stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
     stream_.avail_in = static_cast<uInt>(packed.size());
+    packed_bytes_ += packed.size();
     do {
       if (state_ == Z_STREAM_END && stream_.avail_in == 0) return;
       if (state_ == Z_STREAM_END) inflateReset(&stream_);  // another member follows
@@ -41,6 +42,9 @@ class Inflation {
       bytes_ += size;
       if (bytes_ > most_bytes)
         throw FileError(file_ + ": unpacks to more than 1 GiB (allowed: up to 1 GiB)");
+      if (bytes_ > any_bytes && bytes_ / most_times > packed_bytes_)
+        throw FileError(file_ +
+                        ": unpacks to more than 200 times its length (allowed: up to that)");
       take_({part_.data(), size});
     } while (stream_.avail_in > 0 || stream_.avail_out == 0);
   }
@@ -50,11 +54,12 @@ class Inflation {
 
  private:
   static constexpr std::size_t most_bytes = std::size_t{1} << 30;
+  static constexpr std::size_t any_bytes = std::size_t{1} << 26, most_times = 200;
   std::string file_;
   const Take& take_;
   z_stream stream_ = {};
   int state_ = Z_OK;
-  std::size_t bytes_ = 0;
+  std::size_t bytes_ = 0, packed_bytes_ = 0;
   std::array<char, 1 << 16> part_;
 };
 

@@ -129,6 +129,13 @@ void note_oom_kill(std::optional<std::int64_t> kills_before, ChildEnd& end) {
     end.oom_killed = *now > *kills_before;
 }
 
+std::int64_t resident_peak_bytes(pid_t process) {
+  std::ifstream status(fmt::format("/proc/{}/status", process));
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024 * std::stoll(line.substr(6));
+  return 0;
+}
+
 Channel::~Channel() { close(socket_); }
 
 bool Channel::send(const std::string& line) {

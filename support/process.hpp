@@ -40,6 +40,9 @@ std::string how_it_ended(const ChildEnd& end, double limit_s);
 std::optional<std::int64_t> oom_kills(const std::filesystem::path& root = "/");
 void note_oom_kill(std::optional<std::int64_t> kills_before, ChildEnd& end);
 
+// The highest memory in use so far (VmHWM); 0: it has ended.
+std::int64_t resident_peak_bytes(pid_t process);
+
 class Channel {
  public:
   explicit Channel(int socket) : socket_(socket) {}

@@ -72,13 +72,6 @@ void end_descendants(const std::vector<pid_t>& except,
   }
 }
 
-std::int64_t resident_peak_bytes(pid_t process) {
-  std::ifstream status(fmt::format("/proc/{}/status", process));
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("VmHWM:")) return 1024 * std::stoll(line.substr(6));
-  return 0;  // it has ended
-}
-
 bool lead(int descriptor, const std::filesystem::path& to, int flags) {
   const int file = open(to.c_str(), flags, 0666);
   return file >= 0 && dup2(file, descriptor) == descriptor;

@@ -7,24 +7,25 @@
 #include <set>
 
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/problem/magnitudes.hpp"
 #include "mesh/transform_error.hpp"
 #include "support/lists.hpp"
 
 namespace airybench {
 namespace {
 
-bool is_finite(double value) { return std::isfinite(value); }
-bool is_finite(const Eigen::Vector2d& value) { return value.allFinite(); }
 bool is_zero(double value) { return value == 0; }
 bool is_zero(const Eigen::Vector2d& value) { return value.isZero(0); }
 
 template <typename Value>
-void check(const std::string& key, const std::optional<LinearValue<Value>>& given) {
+void check(const std::string& key, const std::optional<LinearValue<Value>>& given,
+           const Magnitude& magnitude) {
   if (!given) return;
   for (const Value& value : given->values)
-    if (!is_finite(value)) refuse(key, shown(value), "(allowed: finite numbers)");
+    if (!magnitude.has(value)) refuse(key, shown(value), magnitude.allowed);
   for (const Eigen::Vector2d& point : given->at_mm)
-    if (!point.allFinite()) refuse(key + ": at_mm", shown(point), "(allowed: finite numbers)");
+    if (!length_magnitude.has(point))
+      refuse(key + ": at_mm", shown(point), length_magnitude.allowed);
   if ((given->at_mm[1] - given->at_mm[0]).squaredNorm() == 0)
     refuse(key + ": at_mm", shown(given->at_mm[0]), "twice (allowed: two different points)");
 }
@@ -56,8 +57,9 @@ void check_role(const std::string& label, BoundaryRole role, const BoundaryValue
 void check(const std::string& label, const ContactValues& given) {
   if (given.friction && !(*given.friction >= 0 && *given.friction <= max_friction))
     refuse(label + ": friction", *given.friction, "(allowed: 0 to 1e6)");
-  if (given.clearance_mm && (!(*given.clearance_mm >= 0) || !std::isfinite(*given.clearance_mm)))
-    refuse(label + ": clearance_mm", *given.clearance_mm, "(allowed: >= 0)");
+  if (given.clearance_mm &&
+      !(*given.clearance_mm >= 0 && length_magnitude.has(*given.clearance_mm)))
+    refuse(label + ": clearance_mm", *given.clearance_mm, "(allowed: 0 to 1e15 mm)");
   check_curve(label + ": wall", given.wall);
   check_curve(label + ": face", given.face);
 }
@@ -113,9 +115,9 @@ void check_agreement(const Mesh& mesh, const std::vector<BoundaryValues>& of_row
 
 void check_values(const BoundaryConditions& conditions) {
   for (const auto& [label, given] : conditions) {
-    check(label + ": traction_MPa", given.traction_MPa);
-    check(label + ": pressure_MPa", given.pressure_MPa);
-    check(label + ": displacement_mm", given.displacement_mm);
+    check(label + ": traction_MPa", given.traction_MPa, stress_magnitude);
+    check(label + ": pressure_MPa", given.pressure_MPa, stress_magnitude);
+    check(label + ": displacement_mm", given.displacement_mm, length_magnitude);
     check(label, given.contact);
     // check_labels() refuses other labels: they name no group of a mesh.
     if (const auto known = parse_boundary_label(label)) check_role(label, known->role, given);

@@ -1,8 +1,8 @@
 #include "assembly/problem/scene.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "assembly/problem/magnitudes.hpp"
 #include "assembly/problem/scene_errors.hpp"
 #include "support/lists.hpp"
 
@@ -26,18 +26,18 @@ void check_loads(const Scene& scene, const std::string& prefix, const BoundaryCo
                  double clearance_mm, const Eigen::Vector2d& displacement_mm,
                  const Eigen::Vector2d& body_force_N_per_mm3) {
   of_scene(scene, prefix + "boundary", [&] { check_values(boundary); });
-  if (!(clearance_mm >= 0) || !std::isfinite(clearance_mm))
-    fail(scene, prefix + "clearance_mm", clearance_mm, "(allowed: >= 0)");
-  if (!displacement_mm.allFinite())
-    fail(scene, prefix + "displacement_mm", shown(displacement_mm), "(allowed: finite numbers)");
-  if (!body_force_N_per_mm3.allFinite())
+  if (!(clearance_mm >= 0 && length_magnitude.has(clearance_mm)))
+    fail(scene, prefix + "clearance_mm", clearance_mm, "(allowed: 0 to 1e15 mm)");
+  if (!length_magnitude.has(displacement_mm))
+    fail(scene, prefix + "displacement_mm", shown(displacement_mm), length_magnitude.allowed);
+  if (!body_force_magnitude.has(body_force_N_per_mm3))
     fail(scene, prefix + "body_force_N_per_mm3", shown(body_force_N_per_mm3),
-         "(allowed: finite numbers)");
+         body_force_magnitude.allowed);
 }
 
 void check_clearance(const Scene& scene, const std::string& prefix, const ContactPair& pair) {
-  if (pair.clearance_mm && !std::isfinite(*pair.clearance_mm))
-    fail(scene, prefix + "contacts: clearance_mm", *pair.clearance_mm, "(allowed: finite numbers)");
+  if (pair.clearance_mm && !length_magnitude.has(*pair.clearance_mm))
+    fail(scene, prefix + "contacts: clearance_mm", *pair.clearance_mm, length_magnitude.allowed);
 }
 
 void check_contacts(const Scene& scene) {
@@ -131,9 +131,9 @@ void check_values(const Scene& scene) {
   of_scene(scene, "layers", [&] { check_values(scene.layers); });
   check_friction(scene, "friction", scene.friction);
   if (scene.crown_radius_mm &&
-      (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
+      !(*scene.crown_radius_mm > 0 && length_magnitude.has(*scene.crown_radius_mm)))
     fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
-         "(allowed: > 0, or null for a wall on the edges)");
+         "(allowed: > 0, up to 1e15 mm, or null for a wall on the edges)");
   of_scene(scene, "", [&] { check_curve("wall", scene.wall); });
   of_scene(scene, "", [&] { check_curve("face", scene.face); });
   check_contacts(scene);

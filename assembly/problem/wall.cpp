@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "assembly/problem/magnitudes.hpp"
 #include "mesh/transform_error.hpp"
 
 namespace airybench {
@@ -60,20 +61,19 @@ std::optional<double> nearest(const Wall& wall, const Eigen::Vector2d& x, const 
 }
 
 void check_point(const std::string& key, const Eigen::Vector2d& point) {
-  if (!point.allFinite()) refuse(key, shown(point), "(allowed: finite numbers)");
+  if (!length_magnitude.has(point)) refuse(key, shown(point), length_magnitude.allowed);
 }
 
 void check(const std::string& key, const FlatWall& wall) {
   check_point(key + ": flat: point_mm", wall.point_mm);
-  check_point(key + ": flat: normal", wall.normal);
-  if (wall.normal.isZero(0))
-    refuse(key + ": flat: normal", shown(wall.normal), "(allowed: not zero)");
+  if (!wall.normal.allFinite() || wall.normal.isZero(0))
+    refuse(key + ": flat: normal", shown(wall.normal), "(allowed: finite, not zero)");
 }
 
 void check(const std::string& key, const CircularWall& wall) {
   check_point(key + ": circle: centre_mm", wall.centre_mm);
-  if (!(wall.radius_mm > 0) || !std::isfinite(wall.radius_mm))
-    refuse(key + ": circle: radius_mm", shown(wall.radius_mm), "(allowed: > 0)");
+  if (!(wall.radius_mm > 0 && length_magnitude.has(wall.radius_mm)))
+    refuse(key + ": circle: radius_mm", shown(wall.radius_mm), "(allowed: > 0, up to 1e15 mm)");
 }
 
 void check(const std::string& key, const PolylineWall& wall) {

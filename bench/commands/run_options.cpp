@@ -136,8 +136,9 @@ void add_measuring(CLI::App& app, Options& options, Texts& texts) {
                  "4, ... up to the processors")
       ->capture_default_str();
   app.add_option("--timeout", texts.timeout,
-                 "SECONDS[,tuning=SECONDS]: of one solve, and of a case's search for parameters "
-                 "and tolerances")
+                 "SECONDS[,tuning=SECONDS][,others=SECONDS]: of one solve, of a case's search for "
+                 "parameters and tolerances, and of any other phase, as assembly, reference and "
+                 "errors (default: as a solve, but at least 900)")
       ->capture_default_str();
   add_memory_limit(app, options.limits);
 }
@@ -229,10 +230,11 @@ void read_repetitions(const std::string& text, Limits& limits) {
 // No recorded time includes the search for parameters, so its limit stays.
 void read_timeout(const std::string& text, bool is_given, const std::vector<double>& budgets_s,
                   Limits& limits) {
-  const ValueParts parts("--timeout", text, {"tuning"});
+  const ValueParts parts("--timeout", text, {"tuning", "others"});
   limits.timeout_s =
       read_number("--timeout", parts.only_item(), Least::above_zero, most_of_a_limit);
   limits.tuning_budget_s = parts.number("tuning", most_of_a_limit);
+  limits.others_s = parts.number("others", most_of_a_limit);
   if (budgets_s.empty() || is_given) return;
   if (!limits.tuning_budget_s) limits.tuning_budget_s = limits.timeout_s;
   limits.timeout_s = 2 * budgets_s.back();

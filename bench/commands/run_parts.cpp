@@ -16,6 +16,7 @@
 #include "bench/plan/stages.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "mesh/model_format.hpp"
+#include "mesh/model_settings.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/selection.hpp"
 #include "support/called_as.hpp"
@@ -23,6 +24,7 @@
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
 #include "support/sign_of_life.hpp"
+#include "support/time_limit.hpp"
 
 namespace airybench {
 namespace {
@@ -32,10 +34,10 @@ namespace fs = std::filesystem;
 // Of the only mesh, if it is an input deck with one.
 std::optional<SceneFile> scene_of_own_deck(const RunSettings& run) {
   const std::vector<std::string> items = expand_mesh_selection(run.meshes);
-  if (items.size() != 1 || !run.model_settings.empty() || !is_mesh_file(items.front()) ||
-      format_of(items.front()) != ModelFormat::abaqus)
+  if (items.size() != 1 || !std::ranges::all_of(run.model_settings, is_model_limit) ||
+      !is_mesh_file(items.front()) || format_of(items.front()) != ModelFormat::abaqus)
     return {};
-  const std::string text = scene_of_deck(items.front());
+  const std::string text = scene_of_deck(items.front(), run.model_settings);
   if (text.empty()) return {};
   SceneFile own = scene_file_of(text, items.front());
   own.scene.name = model_name(items.front());
@@ -212,6 +214,11 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
       const MeshFile& file = meshes.at(given.model_settings)[k];
       const auto& [scene, definition, settings] =
           is_of_catalogue(file.path) ? given : on_other_bodies(given);
+      const double limit_s = phase_limit_s(options.limits);
+      const TimeLimit limit(limit_s,
+                            fmt::format("bench: {}/{}: posing it took more than {:g} s (more with "
+                                        "--timeout=...,others=SECONDS)",
+                                        file.mesh.name, scene.name, limit_s));
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.output.folder),
                        file.sha256, definition,
                        std::make_shared<const Problem>(pose(scene, file.mesh))});

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,7 +17,6 @@
 #include "mesh/refinement.hpp"
 #include "mesh/selection.hpp"
 #include "support/atomic_file.hpp"
-#include "support/called_as.hpp"
 #include "support/data_folder.hpp"
 #include "support/errors.hpp"
 #include "support/process.hpp"
@@ -41,7 +41,6 @@ void check_name(const Mesh& mesh, const std::filesystem::path& path) {
 }
 
 constexpr const char* converter = "meshgen";
-constexpr double time_limit_s = 900;
 
 // Next to this program; where it has not been built, ./run says how.
 std::optional<std::filesystem::path> converter_program() {
@@ -76,11 +75,8 @@ std::string said_of_model(const std::string& mode, const std::filesystem::path& 
                     model.string(), converter));
   std::vector<std::string> arguments = {mode + "=" + model.string()};
   arguments.insert(arguments.end(), settings.begin(), settings.end());
-  ProgramEnd end = run_program(*program, arguments, time_limit_s);
-  if (end.timed_out)
-    throw FileError(fmt::format(
-        "{}: {} was ended after {} s (allowed: that long; {} --convert by itself has no limit)",
-        model.string(), converter, time_limit_s, called_as(converter)));
+  constexpr double no_limit_s = std::numeric_limits<double>::infinity();  // it has its own
+  ProgramEnd end = run_program(*program, arguments, no_limit_s);
   if (end.exit_code != 0) throw FileError(complaint_of(end));
   std::cerr << without_signs_of_life(end.err);
   return std::move(end.out);
@@ -177,8 +173,8 @@ std::string curves_of_model(const std::filesystem::path& model, const Settings& 
   return said_of_model("--show", model, to_standard_output(settings));
 }
 
-std::string scene_of_deck(const std::filesystem::path& deck) {
-  return said_of_model("--scene", deck, {});
+std::string scene_of_deck(const std::filesystem::path& deck, const Settings& limits) {
+  return said_of_model("--scene", deck, limits);
 }
 
 bool is_of_catalogue(const std::filesystem::path& file) {

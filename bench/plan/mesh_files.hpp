@@ -34,8 +34,10 @@ std::vector<MeshFile> read_meshes(const RunSettings& run, const std::filesystem:
 std::string curves_of_model(const std::filesystem::path& model,
                             const std::vector<std::string>& settings);
 
-// What an input deck prescribes, as a scene; empty where it is a mesh only. Throws FileError.
-std::string scene_of_deck(const std::filesystem::path& deck);
+// What an input deck prescribes, as a scene; empty where it is a mesh only; limits: settings.
+// Throws FileError.
+std::string scene_of_deck(const std::filesystem::path& deck,
+                          const std::vector<std::string>& limits);
 
 // Writes converted meshes to OUT/meshes/NAME.HASH/NAME.msh, which no other mesh overwrites: HASH is
 // the start of the SHA-256.

@@ -168,8 +168,9 @@ void note_missing_roles(const Json& boundary, const std::string& name) {
 
 std::string new_scene_text(const std::filesystem::path& model,
                            const std::vector<std::string>& settings) {
-  if (format_of(model) == ModelFormat::abaqus && settings.empty())
-    if (const std::string of_deck = scene_of_deck(model); !of_deck.empty()) return of_deck;
+  if (format_of(model) == ModelFormat::abaqus && std::ranges::all_of(settings, is_model_limit))
+    if (const std::string of_deck = scene_of_deck(model, settings); !of_deck.empty())
+      return of_deck;
   const Json shown = parse_json(curves_of_model(model, settings));
   const Material material;
   const Json of_material = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};

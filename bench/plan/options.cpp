@@ -25,6 +25,11 @@ std::string text_of(const std::vector<AdaptGoal>& goals) {
   return text;
 }
 
+double phase_limit_s(const Limits& limits) {
+  constexpr double least_s = 900;
+  return limits.others_s.value_or(std::max(limits.timeout_s, least_s));
+}
+
 std::string name_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
 std::optional<Shard> shard_of(const std::string& text) {

@@ -71,8 +71,13 @@ struct Limits {
   double long_case_s = 30;                // a longer solve is measured once
   double timeout_s = 900;                 // per solve
   std::optional<double> tuning_budget_s;  // per case, to find parameters and tolerances
+  std::optional<double> others_s;         // each phase that is no solve: see phase_limit_s()
   std::optional<std::int64_t> memory_limit_bytes;  // heap per solve, blocks included
 };
+
+// Of posing a scene, assembly, reference, verification, errors, fields; unless given, that of a
+// solve, but at least 900 s.
+double phase_limit_s(const Limits& limits);
 
 // Where records go.
 struct Output {

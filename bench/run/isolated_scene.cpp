@@ -34,14 +34,7 @@ struct Command {
 };
 
 double limit_s(const ActivityBoard& board, const Limits& limits) {
-  constexpr double least_for_others_s = 900;
-  return is_run(board.activity()) ? run_limit_s(board.activity(), limits)
-                                  : std::max(limits.timeout_s, least_for_others_s);
-}
-
-// The grace lets a method end by itself and report its progress.
-bool is_overdue(const ActivityBoard& board, const Limits& limits) {
-  return board.seconds() > 1.1 * limit_s(board, limits) + 2;
+  return is_run(board.activity()) ? run_limit_s(board.activity(), limits) : phase_limit_s(limits);
 }
 
 void keep_log(const Case& c, const std::filesystem::path& out, const std::string& log) {
@@ -134,6 +127,7 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
           const ObservedStages observed(&own.board);
           serve_case(to_scene, c, limits, out, bench, own.board);
         });
+      own.board.beat();
       answer = own.process->ask(*line, [&](double suspended_s) {
         board.beat();
         own.board.skip(suspended_s);
@@ -181,6 +175,11 @@ Verdict why_no_answer(const ChildEnd& end) {
 
 }  // namespace
 
+bool is_overdue(const ActivityBoard& board, const Limits& limits) {
+  const double seconds = board.activity() == Activity::none ? board.silent_s() : board.seconds();
+  return seconds > 1.1 * limit_s(board, limits) + 2;
+}
+
 void tell_refused_memory_at_exit() {
   std::atexit([] {
     if (heap::was_refused()) _exit(no_memory_exit_code);
@@ -192,7 +191,10 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limi
   run.ended_in = board.where();
   run.time_s = board.seconds();
   run.runs_s = board.seconds_in_runs();
-  const std::string place = fmt::format("in {} after {}", run.ended_in, show_seconds(run.time_s));
+  const std::string place =
+      end.timed_out && board.activity() == Activity::none
+          ? "between its runs"
+          : fmt::format("in {} after {}", run.ended_in, show_seconds(run.time_s));
   const auto ended = [&](Status status, const std::string& how) {
     run.end = {status, fmt::format("its process was ended {}{}", place, how)};
     return run;

@@ -63,6 +63,10 @@ class IsolatedScene {
   double preparation_s_ = 0;
 };
 
+// Passed the limit of its activity, or of a phase between two (fields). A grace lets a method end
+// by itself and report its progress.
+bool is_overdue(const ActivityBoard& board, const Limits& limits);
+
 TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limits& limits);
 
 // Of a case whose record cannot be read: a crash.

@@ -126,7 +126,7 @@ TEST(BoundaryValues, ContradictionsAreRefused) {
             "s.json: boundary: force:top: traction_MPa and pressure_MPa (allowed: one of them)");
   EXPECT_EQ(
       with("force:top", [](BoundaryValues& v) { v.traction_MPa = constant(std::nan(""), 0); }),
-      "s.json: boundary: force:top: traction_MPa: [nan, 0] (allowed: finite numbers)");
+      "s.json: boundary: force:top: traction_MPa: [nan, 0] (allowed: -1e30 to 1e30 MPa)");
   EXPECT_EQ(with("force:top",
                  [](BoundaryValues& v) {
                    v.pressure_MPa =

@@ -114,7 +114,7 @@ TEST(PairedFaces, WhatCannotBeIsRefusedInALine) {
       "other (allowed: one piece, or pieces that contacts join; in Gmsh, Coherence or "
       "BooleanFragments joins surfaces that touch)");
   EXPECT_EQ(complaint([](Scene& s) { s.contacts[0].clearance_mm = -INFINITY; }),
-            "default scene: contacts: clearance_mm: -inf (allowed: finite numbers)");
+            "default scene: contacts: clearance_mm: -inf (allowed: -1e15 to 1e15 mm)");
   EXPECT_EQ(complaint([](Scene& s) { s.boundary["contact:base"].contact.friction = 0.1; }),
             "default scene: boundary: contact:base: friction of a group in contacts (allowed: "
             "face; friction "
@@ -154,8 +154,9 @@ TEST(PairedFaces, WhatCannotBeIsRefusedInALine) {
             }),
             "default scene: load_steps: 1: contacts: between: contact:block and contact:base twice "
             "(allowed: every pair once)");
-  EXPECT_EQ(of_step([](ContactPair& pair) { pair.clearance_mm = NAN; }),
-            "default scene: load_steps: 1: contacts: clearance_mm: nan (allowed: finite numbers)");
+  EXPECT_EQ(
+      of_step([](ContactPair& pair) { pair.clearance_mm = NAN; }),
+      "default scene: load_steps: 1: contacts: clearance_mm: nan (allowed: -1e15 to 1e15 mm)");
 }
 
 TEST(PairedFaces, LeaveNothingForKeysOfWalls) {

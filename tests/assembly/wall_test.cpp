@@ -186,11 +186,11 @@ TEST(Wall, WhatCannotBeAWall) {
             in + "boundary: contact: wall: lies 5 mm inside the body at [10, 0] (allowed: up to a "
                  "tenth of its size, 1.41421 mm)");
   EXPECT_EQ(complaint(scene_with(FlatWall{{10, 0}, {0, 0}})),
-            in + "wall: flat: normal: [0, 0] (allowed: not zero)");
+            in + "wall: flat: normal: [0, 0] (allowed: finite, not zero)");
   EXPECT_EQ(complaint(scene_with(CircularWall{{20, 5}, -1, outside})),
-            in + "wall: circle: radius_mm: -1 (allowed: > 0)");
+            in + "wall: circle: radius_mm: -1 (allowed: > 0, up to 1e15 mm)");
   EXPECT_EQ(complaint(scene_with(CircularWall{{20, std::nan("")}, 1, outside})),
-            in + "wall: circle: centre_mm: [20, nan] (allowed: finite numbers)");
+            in + "wall: circle: centre_mm: [20, nan] (allowed: -1e15 to 1e15 mm)");
   EXPECT_EQ(complaint(scene_with(PolylineWall{{{1, 2}}})),
             in + "wall: polyline: 1 point(s) (allowed: at least 2)");
   EXPECT_EQ(complaint(scene_with(PolylineWall{{{1, 2}, {1, 2}}})),

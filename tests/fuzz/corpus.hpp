@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <ostream>
 #include <vector>
 
@@ -15,15 +14,9 @@
 
 namespace airybench::fuzz {
 
-struct Reader {
-  const char* name;
-  void (*read)(const std::string& text);
-  friend std::ostream& operator<<(std::ostream& out, const Reader& reader) {
-    return out << reader.name;
-  }
-};
-inline constexpr std::array readers = {Reader{"mesh", mesh}, Reader{"scene", scene},
-                                       Reader{"record", record}, Reader{"night", night}};
+inline std::ostream& operator<<(std::ostream& out, const Reader& reader) {
+  return out << reader.name;
+}
 
 inline std::string name_of_test(const ::testing::TestParamInfo<Reader>& info) {
   return info.param.name;

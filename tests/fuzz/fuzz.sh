@@ -1,28 +1,34 @@
 #!/usr/bin/env bash
 # Feeds the readers of files with random bytes. What breaks one stays in tests/data/fuzz.
 #
-#   fuzz.sh TREE [mesh | scene | record | night]... [--seconds=300]
+#   fuzz.sh TREE [READER]... [--seconds=300]
 #
 # TREE is where the fuzzers are built.
 set -euo pipefail
 tree=$1
 shift
 inputs=$(dirname "$(dirname "$(realpath -- "${BASH_SOURCE[0]}")")")/data/fuzz
+all=(mesh scene record night siconos fclib deck model)
 readers=()
 seconds=300
 for argument in "$@"; do
-  case $argument in
-    mesh | scene | record | night) readers+=("$argument") ;;
-    --seconds=[1-9]*) seconds=${argument#*=} ;;
-    *)
-      echo "run: fuzz: unknown '$argument' (valid: mesh, scene, record, night, --seconds=N)" >&2
-      exit 2
-      ;;
-  esac
+  if [[ $argument == --seconds=[1-9]* ]]; then
+    seconds=${argument#*=}
+  elif [[ " ${all[*]} " == *" $argument "* ]]; then
+    readers+=("$argument")
+  else
+    valid=$(printf '%s, ' "${all[@]}")
+    echo "run: fuzz: unknown '$argument' (valid: ${valid}--seconds=N)" >&2
+    exit 2
+  fi
 done
-((${#readers[@]})) || readers=(mesh scene record night)
+((${#readers[@]})) || readers=("${all[@]}")
 status=0
 for reader in "${readers[@]}"; do
+  if [[ ! -e $tree/tests/fuzz/fuzz_$reader ]]; then # HDF5 is optional
+    echo "run: fuzz: $reader is not built" >&2
+    continue
+  fi
   corpus=$inputs/$reader
   new=$tree/corpus/$reader # inputs that reach more; they are not kept in git
   mkdir -p "$new"

@@ -35,11 +35,21 @@ TEST(ModelOptions, WhatIsWrongIsRefusedWithWhatIsAllowed) {
   for (const std::string parameter : {"h", "h=1mm", "h=nan"})
     EXPECT_EQ(complaint({}, {parameter}, ""),
               "--parameter: " + parameter + " (allowed: NAME=NUMBER)");
-  for (const std::string size : {"0", "-1", "0%", "fine", "%", "1e300", "nan"})
+  for (const std::string size : {"0", "-1", "0%", "1e-9%", "fine", "%", "1e300", "nan"})
     EXPECT_EQ(complaint({}, {}, size),
               "--mesh-size: " + size +
                   " (allowed: the longest edge in mm, as 0.5, or a part of the model's sizes, as "
-                  "50%)");
+                  "50%, of 0.01% or more)");
+}
+
+TEST(ModelOptions, LimitsAreNumbersAboveZero) {
+  const ModelLimits limits = model_limits_of("2.5", "");
+  EXPECT_EQ(limits.time_s, 2.5);
+  EXPECT_EQ(limits.memory_MiB, default_model_memory_MiB);
+  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { model_limits_of("0", ""); }),
+            "--model-time: 0 (allowed: above 0, up to 1e+09)");
+  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { model_limits_of("", "4GiB"); }),
+            "--model-memory: 4GiB (allowed: above 0, up to 1e+09)");
 }
 
 TEST(ModelOptions, OtherUnitsAreRefused) {

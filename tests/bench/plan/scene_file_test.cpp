@@ -149,7 +149,7 @@ TEST_F(SceneFile, ComplaintsOfLoadSteps) {
             "load_steps: 2: friction: unknown key (allowed: displacement_mm, "
             "body_force_N_per_mm3, clearance_mm, boundary, contacts)");
   EXPECT_EQ(complaint(R"({"load_steps": [{}, {"clearance_mm": -1}]})"),
-            "load_steps: 2: clearance_mm: -1 (allowed: >= 0)");
+            "load_steps: 2: clearance_mm: -1 (allowed: 0 to 1e15 mm)");
   EXPECT_EQ(complaint(R"({"load_steps": [{"displacement_mm": 3}]})"),
             "load_steps: 1: displacement_mm: 3 (allowed: two numbers [x, y])");
   EXPECT_EQ(complaint(R"({"load_steps": [{"boundary": {"displacement": {"support": "full"}}}]})"),
@@ -213,7 +213,7 @@ TEST_F(SceneFile, ComplaintsOfWalls) {
             "wall: flat: {\"normal\":[0,1]} (allowed: {\"point_mm\": [x, y], \"normal\": [x, y]}, "
             "both given)");
   EXPECT_EQ(complaint(R"({"wall": {"flat": {"point_mm": [0, 0], "normal": [0, 0]}}})"),
-            "wall: flat: normal: [0, 0] (allowed: not zero)");
+            "wall: flat: normal: [0, 0] (allowed: finite, not zero)");
   EXPECT_EQ(complaint(R"({"wall": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})"),
             "wall: circle: {\"centre_mm\":[0,0],\"radius_mm\":1} (allowed: {\"centre_mm\": [x, y], "
             "\"radius_mm\": ..., \"bodies\": \"inside\" or \"outside\"}, all given)");
@@ -298,7 +298,7 @@ TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(complaint(R"({"displacement_mm": [1]})"),
             "displacement_mm: [1] (allowed: two numbers [x, y])");
   EXPECT_EQ(complaint(R"({"crown_radius_mm": 0})"),
-            "crown_radius_mm: 0 (allowed: > 0, or null for a wall on the edges)");
+            "crown_radius_mm: 0 (allowed: > 0, up to 1e15 mm, or null for a wall on the edges)");
   EXPECT_EQ(complaint(R"({"materials": {"a": {"nu": 0.3}}})"),
             "materials: a: nu: unknown key (allowed: young_MPa, poisson)");
   EXPECT_EQ(complaint(R"({"materials": {"a": {"poisson": 0.7}}})"),

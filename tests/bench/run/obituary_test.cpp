@@ -39,6 +39,26 @@ TEST(Obituary, OfOneWithoutMemoryOutsideOfARunIsNoCrash) {
   }
 }
 
+// What a case's process does between its activities, as writing fields, has a limit, too.
+TEST(ActivityBoard, WhatIsNoActivityHasTheLimitOfOtherPhases) {
+  ActivityBoard board;
+  board.beat();
+  Limits limits;
+  EXPECT_FALSE(is_overdue(board, limits));
+  limits.others_s = -10;  // whatever has passed
+  EXPECT_TRUE(is_overdue(board, limits));
+  ChildEnd end;
+  end.timed_out = true;
+  end.signal = SIGKILL;
+  limits.others_s = 5;
+  const TimedRun run = obituary_of(end, board, limits);
+  EXPECT_EQ(run.status, Status::timeout);
+  EXPECT_EQ(run.message, "its process was ended between its runs: the limit is 5 s");
+  board.begins(Activity::detail_run);
+  limits.others_s = -10;
+  EXPECT_FALSE(is_overdue(board, limits));
+}
+
 // A path's steps are verified within its run, which may hang afterwards.
 TEST(ActivityBoard, AnActivityWithinARunInterruptsIt) {
   ActivityBoard board;

@@ -12,6 +12,8 @@
 #include <csignal>
 
 #include "support/data_folder.hpp"
+#include "support/errors.hpp"
+#include "support/time_limit.hpp"
 #include "tests/support/background_run.hpp"
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -236,6 +238,20 @@ TEST(ChildProcess, SaysThatItWasSuspended) {
                       }),
             "here");
   EXPECT_TRUE(child.was_suspended());
+}
+
+TEST(TimeLimit, EndsItsProcessWhileItLives) {
+  ChildProcess child([](Channel& channel) {
+    { const TimeLimit limit(1e-3, "this is not printed"); }
+    channel.receive();
+    channel.send("past it");
+    channel.receive();
+    const TimeLimit limit(0.01, "(of a test: it took too long)");
+    for (;;) pause();
+  });
+  EXPECT_EQ(child.ask("first"), "past it");
+  EXPECT_FALSE(child.ask("second"));
+  EXPECT_EQ(child.end().exit_code, wrong_usage);
 }
 
 TEST(TemporaryFolder, OfAKilledProcessIsRemovedByTheNextRun) {

@@ -68,7 +68,7 @@ TEST_P(Corpus, IsTakenOrRefused) {
   }
   EXPECT_GT(good, 0) << "nothing to start from";
 }
-INSTANTIATE_TEST_SUITE_P(Of, Corpus, ::testing::ValuesIn(fuzz::readers), fuzz::name_of_test);
+INSTANTIATE_TEST_SUITE_P(Of, Corpus, ::testing::ValuesIn(fuzz::readers()), fuzz::name_of_test);
 
 class Mutants : public ::testing::TestWithParam<fuzz::Reader> {};
 
@@ -88,7 +88,7 @@ TEST_P(Mutants, AreTakenOrRefused) {
     EXPECT_LT(good, mutants) << file << ": nothing is refused";
   }
 }
-INSTANTIATE_TEST_SUITE_P(Of, Mutants, ::testing::ValuesIn(fuzz::readers), fuzz::name_of_test);
+INSTANTIATE_TEST_SUITE_P(Of, Mutants, ::testing::ValuesIn(fuzz::readers()), fuzz::name_of_test);
 
 }  // namespace
 }  // namespace airybench::mutations_test
