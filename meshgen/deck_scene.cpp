@@ -42,7 +42,11 @@ class SceneReader {
     DeckScene scene;
     label_edges();
     scene.curve = curves();
-    scene.json = json(scene.curve).dump(2) + "\n";
+    try {
+      scene.json = json(scene.curve).dump(2) + "\n";
+    } catch (const Json::type_error&) {
+      throw InputError("a name that is no UTF-8 (allowed: UTF-8)");
+    }
     scene.notes = std::move(properties_.notes);
     return scene;
   }

@@ -41,5 +41,7 @@ std::string fclib_file(const contact::Problem& problem, const Eigen::VectorXd& a
 // W or M is not symmetric, W has a diagonal entry ≤ 0, M is not positive definite, or if there are
 // equality constraints.
 contact::Problem read_fclib(const std::filesystem::path& file);
+// Which libhdf5 may end, if the file is damaged; the function above tries it in another.
+contact::Problem read_fclib_in_this_process(const std::filesystem::path& file);
 
 }  // namespace airybench

@@ -4,12 +4,16 @@
 
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "bench/problems/hdf5_handle.hpp"
 #include "bench/problems/problem_parts.hpp"
 #include "support/errors.hpp"
+#include "support/process.hpp"
+#include "support/seconds_since.hpp"
 
 namespace airybench {
 namespace {
@@ -234,9 +238,31 @@ std::string name_of(const FclibFile& file, const std::filesystem::path& path) {
   return title.empty() ? path.stem().string() : title;
 }
 
+// libhdf5 crashes on some damaged files: a child process reads them first.
+void try_to_read(const std::filesystem::path& path) {
+  constexpr double most_s = 300;
+  const auto begun = std::chrono::steady_clock::now();
+  ChildProcess child([&](Channel& channel) {
+    channel.receive();
+    std::string why_not;
+    try {
+      read_fclib_in_this_process(path);
+    } catch (const InputError& error) {
+      why_not = error.what();
+    }
+    channel.send(why_not);
+  });
+  const auto answer = child.ask("read", [&](double) { return seconds_since(begun) > most_s; });
+  if (answer && answer->empty()) return;
+  if (answer) throw FileError(*answer);
+  if (child.end().exit_code == no_memory_exit_code) throw std::bad_alloc();
+  throw FileError(fmt::format("{}: damaged: libhdf5, which read it, {} (allowed: an HDF5 file)",
+                              path.string(), how_it_ended(child.end(), most_s)));
+}
+
 }  // namespace
 
-contact::Problem read_fclib(const std::filesystem::path& path) {
+contact::Problem read_fclib_in_this_process(const std::filesystem::path& path) {
   const FclibFile file(path);
   const std::string local = "/fclib_local", global = "/fclib_global";
   const bool is_local = file.has(local);
@@ -249,6 +275,11 @@ contact::Problem read_fclib(const std::filesystem::path& path) {
       is_local ? read_local(file, place, dimension) : read_global(file, place, dimension);
   problem.name = name_of(file, path);
   return problem;
+}
+
+contact::Problem read_fclib(const std::filesystem::path& path) {
+  try_to_read(path);
+  return read_fclib_in_this_process(path);
 }
 
 }  // namespace airybench
