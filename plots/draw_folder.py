@@ -1,5 +1,6 @@
 """What a results folder has, drawn: fields by gallery.py, contact problems without a body by
-contact_profiles.py, all other records by figures.py. ./run figures calls it."""
+contact_profiles.py, the answer of `bench solve` by part.py, all other records by figures.py.
+./run figures calls it."""
 import argparse
 import subprocess
 import sys
@@ -10,6 +11,12 @@ import command
 from records import RecordsError, is_without_body, read_lines
 
 RECORDS = ("records.jsonl", "records.jsonl.gz", "results.csv")
+
+
+def is_part(folder: Path) -> bool:
+    """What `bench solve` wrote last: after its records."""
+    part, lines = folder / "part.json", folder / "records.jsonl"
+    return part.exists() and (not lines.exists() or part.stat().st_mtime_ns >= lines.stat().st_mtime_ns)
 
 
 def drawing_programs(folder: Path, only: str | None, animate: bool) -> list[str]:
@@ -40,6 +47,10 @@ def show_life(folder: Path, done: threading.Event) -> None:
 
 
 def draw(args: argparse.Namespace) -> None:
+    if is_part(args.results) and not args.only and not args.animate:
+        import part  # here: others need no matplotlib in this process
+        part.make(args)
+        return
     status, done = 0, threading.Event()
     programs = drawing_programs(args.results, args.only, args.animate)
     threading.Thread(target=show_life, args=(args.results, done), daemon=True).start()
@@ -63,6 +74,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="a results folder; default: results/latest")
     parser.add_argument("--only", metavar="GLOB,...", help="of its records these figures and tables")
     parser.add_argument("--animate", action="store_true", help="also a .gif of every path of load steps")
+    parser.add_argument("--html", action="store_true", help="of a solve also one page, part.html")
     parser.add_argument("--vector", action="store_true", help="each figure also as .svg and .pdf")
     parser.add_argument("--quiet", action="store_true", help=argparse.SUPPRESS)  # after bench
 

@@ -152,7 +152,11 @@ def enlargement(solutions: list[Fields]) -> float | None:
                    if s.moved is not None), default=0)
     if not largest > 0:
         return None
-    most = MOVED / largest
+    return round_below(MOVED / largest)
+
+
+def round_below(most: float) -> float:
+    """The largest of 1, 2, 5, 10, 20, … that is not above."""
     power = 10.0 ** np.floor(np.log10(most))
     return float(power * max(factor for factor in (1, 2, 5) if factor * power <= most))
 
@@ -221,15 +225,16 @@ def draw_loads(axes: Axes, s: Fields, largest: float) -> None:
             if np.hypot(*traction) < WEAKEST * largest:
                 continue
             outward = np.array([end[1] - start[1], start[0] - end[0]])
-            tip, tail = (0, 0), -ARROW_PT * traction / largest
-            if traction @ outward > 0:
-                tip, tail = -tail, tip
             point = axes.transData.transform((1 - part) * start + part * end)
-            point = point * 72 / axes.figure.dpi
-            axes.annotate("", point + tip, xytext=point + tail, xycoords="figure points",
-                          textcoords="figure points", annotation_clip=False,
-                          arrowprops=dict(arrowstyle="-|>", mutation_scale=5, linewidth=0.6,
-                                          shrinkA=0, shrinkB=0, color="black"))
+            load_arrow(axes, point * 72 / axes.figure.dpi, ARROW_PT * traction / largest, outward)
+
+
+def load_arrow(axes: Axes, point: np.ndarray, arrow: np.ndarray, outward: np.ndarray) -> None:
+    """At a point of an edge, from the figure's corner, points: what pushes ends there, what pulls begins."""
+    tip, tail = (point + arrow, point) if arrow @ outward > 0 else (point, point - arrow)
+    axes.annotate("", tip, xytext=tail, xycoords="figure points", textcoords="figure points",
+                  annotation_clip=False, arrowprops=dict(arrowstyle="-|>", mutation_scale=5, linewidth=0.6,
+                                                         shrinkA=0, shrinkB=0, color="black"))
 
 
 def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:

@@ -250,17 +250,21 @@ bool is_named_after_catalogue(const std::string& mesh) {
   return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }
 
-void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
+void draw_figures(const fs::path& out, const std::string& options) {
   std::fflush(stdout);
   const char* const then = std::getenv("AIRYBENCH_THEN");
+  if (then != nullptr && *then != '\0' &&
+      std::system(fmt::format("{} {} {}", then, options, file_operand(out.string())).c_str()) != 0)
+    std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
+}
+
+void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
   bool any_figure = false;  // of bodies, and of the study of contact problems
   for (std::size_t k = 0; k < result.names.size() && !any_figure; ++k) {
     const Record record = result.record(k);
     any_figure = record.n_phi.has_value() || !record.study.empty();
   }
-  if (then != nullptr && *then != '\0' && any_figure &&
-      std::system(fmt::format("{} {}", then, file_operand(out.string())).c_str()) != 0)
-    std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
+  if (any_figure) draw_figures(out);
   fmt::print("{}", picture_line(result, out, has_fields));
 }
 

@@ -19,8 +19,11 @@ PosedScene one_posed_scene(const Options& options);  // throws UsageError unless
 // Of the paper's meshes, also adapted or refined: "Mesh0+adapt3".
 bool is_named_after_catalogue(const std::string& mesh);
 
-// Runs the shell command $AIRYBENCH_THEN with the results folder as its last argument; notes a
-// failure. Then prints which picture of the last mesh outside the catalogue to open, or how to get
+// Runs the shell command $AIRYBENCH_THEN with these options and the results folder as its last
+// argument; notes a failure.
+void draw_figures(const std::filesystem::path& out, const std::string& options = "");
+
+// Draws the figures, if there are any. Then prints which picture of the last mesh outside the catalogue to open, or how to get
 // one. has_fields: the run has written fields.
 void end_run(const RunResult& result, const std::filesystem::path& out, bool has_fields);
 

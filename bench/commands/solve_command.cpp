@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <sstream>
 
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/commands.hpp"
@@ -29,7 +30,8 @@ namespace {
 constexpr const char* solve_footer = R"(
 MODEL is a mesh or a Gmsh model; an input deck (.inp) brings its own scene. The mesh is adapted until the total error, relative in
 energy, is met; with :force or :pressure until the interval of Σ F_n or of the largest pressure is as narrow, ± relative.
-In OUT: records, meshes, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), figures.
+In OUT: the picture figures/part.png, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), meshes and
+records; with --html all that is printed and the picture in part.html, one page that stands alone.
 
 Exit status  0  the error is met
              1  it is not, or the case is not ok
@@ -38,7 +40,7 @@ Exit status  0  the error is met
 Examples
   {bench} solve part.inp
   {bench} solve part.geo load.json --error=0.5%
-  {bench} solve part.geo load.json --error=1%:pressure --steps=10
+  {bench} solve part.geo load.json --error=1%:pressure --steps=10 --html
 )";
 
 enum class Quantity { energy, force, pressure };
@@ -61,11 +63,12 @@ Goal goal_of(const std::string& text) {
                   shortened(text)));
 }
 
-Options parse_solve(int argc, const char* const* argv, Goal& goal) {
+Options parse_solve(int argc, const char* const* argv, Goal& goal, bool& html) {
   Options options;
   options.output.folder = "results/solve";
   options.limits.repetitions = 1;
-  options.run.cases.fields = options.run.cases.timed_once = options.run.cases.intervals = true;
+  options.run.cases.fields = options.run.cases.picture = true;
+  options.run.cases.timed_once = options.run.cases.intervals = true;
   options.run.adapt.goals_only = true;
   std::string error = "1%", degree = "auto", scene;
   CLI::App app("A part's forces, pressure, stress and displacement, and how far they may be off.",
@@ -82,6 +85,7 @@ Options parse_solve(int argc, const char* const* argv, Goal& goal) {
   add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.limits.timeout_s,
              "seconds that one solve may take");
   add_memory_limit(app, options.limits);
+  app.add_flag("--html", html, "also a page: OUT/part.html");
   app.add_option("--out", options.output.folder, "folder of the output files")
       ->capture_default_str();
   parse_command_line(app, argc, argv);
@@ -103,9 +107,37 @@ std::string assumptions_of(const Problem& problem) {
     bodies += fmt::format("; {}: E {:.6g} MPa, ν {:.4g}", problem.mesh.body_names[k],
                           (1 - across * across) / C(0, 0), poisson);
   }
-  return fmt::format("{}: plane {}, forces for a thickness of 1 mm{}\n", problem.mesh.name,
+  return fmt::format("{}: plane {}, forces for a thickness of 1 mm{}", problem.mesh.name,
                      is_strain ? "strain" : "stress", bodies);
 }
+
+// Passes on what is printed to a stream, and keeps its notes.
+class KeptNotes : std::streambuf {
+ public:
+  explicit KeptNotes(std::ostream& stream) : stream_(stream), next_(stream.rdbuf(this)) {}
+  ~KeptNotes() override { stream_.rdbuf(next_); }
+  KeptNotes(const KeptNotes&) = delete;
+  KeptNotes& operator=(const KeptNotes&) = delete;
+  std::vector<std::string> notes() const {
+    std::vector<std::string> notes;
+    std::istringstream lines(printed_);
+    const std::string start = "note: ";
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with(start)) notes.push_back(line.substr(start.size()));
+    return notes;
+  }
+
+ private:
+  int_type overflow(int_type c) override {
+    printed_ += static_cast<char>(c);
+    return next_->sputc(static_cast<char>(c));
+  }
+  int sync() override { return next_->pubsync(); }
+
+  std::ostream& stream_;
+  std::streambuf* next_;
+  std::string printed_;
+};
 
 // Half the interval's width over its value; none: it is not known.
 std::optional<double> reached(const Record& record, Quantity of) {
@@ -165,9 +197,11 @@ std::optional<Solved> solved(const PosedScene& start, Options options, const Goa
 
 int solve_command(int argc, const char* const* argv) {
   Goal goal;
-  const Options options = parse_solve(argc, argv, goal);
+  bool html = false;
+  const Options options = parse_solve(argc, argv, goal, html);
   check_takes_records(options.output.folder);
   catch_interrupts();
+  const KeptNotes said(std::cerr);
   const PosedScene start = one_posed_scene(options);
   make_folder(options.output.folder);
   set_threads(options.run.cases.threads);
@@ -180,14 +214,28 @@ int solve_command(int argc, const char* const* argv) {
   const Json part = std::filesystem::exists(of_part, error)
                         ? json_of_file(of_part.string(), file_text(of_part))
                         : Json();
-  fmt::print("\n{}\n{}", assumptions_of(*start.body()), part_table(record, part));
+  const std::string assumptions = assumptions_of(*start.body());
+  PartReport report = part_report(record, part);
   const std::optional<double> width = reached(record, goal.of);
   const bool is_met = width && *width <= goal.error && record.status == Status::ok;
   if (!is_met && record.status == Status::ok)
-    fmt::print("note: the error asked for, {:g} %, is not met: {}\n", 100 * goal.error,
-               width ? fmt::format("{:.3g} %", 100 * *width) : "this quantity has no interval");
-  if (!part.is_null()) fmt::print("faces: {}.faces.csv\n", fields.string());
-  end_run(answer->result, options.output.folder, true);
+    report.emplace_back(fmt::format(
+        "note: the error asked for, {:g} %, is not met: {}", 100 * goal.error,
+        width ? fmt::format("{:.3g} %", 100 * *width) : "this quantity has no interval"));
+  fmt::print("\n{}\n\n{}", assumptions, text_of(report));
+  if (!part.is_null()) {
+    fmt::print("faces: {0}.faces.csv\nParaView: {0}.vtu\n", fields.string());
+    const Json shown = {{"name", start.body()->mesh.name},
+                        {"case", fields.filename().string()},
+                        {"assumptions", assumptions},
+                        {"notes", said.notes()},
+                        {"largest_pressure_is", record.largest_pressure_is},
+                        {"error_total", record.error_total ? Json(*record.error_total) : Json()},
+                        {"report", to_json(report)}};
+    // After the records: where these are newer, a later run has written them.
+    write_file_atomically(options.output.folder / "part.json", json_text(shown));
+    draw_figures(options.output.folder, html ? "--html" : "");
+  }
   return is_met ? all_ok : some_case_failed;
 }
 

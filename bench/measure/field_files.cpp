@@ -8,6 +8,7 @@
 #include "assembly/control_points.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "bench/measure/part_answer.hpp"
+#include "bench/measure/part_picture.hpp"
 #include "bench/measure/vtu.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/contact/coulomb_law.hpp"
@@ -339,6 +340,9 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
   const bool is_part = fields.solution.displacement.cols() == 0;  // else F_C has other points
   write_if(is_part, ".answer.json", [&] { return json_text(to_json(part_answer(fields))); });
   write_if(is_part, ".faces.csv", [&] { return faces_csv(fields, contact); });
+  write_if(fields.picture, ".von_mises.csv", [&] { return von_mises_csv(fields); });
+  write_if(fields.picture, ".outline.csv",
+           [&] { return outline_csv(problem, stress.degree(), u); });
   write_if(u.has_value(), ".displacement.csv", [&] { return displacement_csv(problem, *u); });
   write_if(fields.error != nullptr, ".error.csv", [&] { return error_csv(*fields.error); });
   write_if(fields.mean.has_value(), ".mean.csv", [&] { return stress_csv(problem, *fields.mean); });

@@ -13,6 +13,7 @@
 //   NAME.faces.csv    face, along_mm, x_mm, y_mm, pressure_MPa, shear_MPa, gap_mm, slip_mm, state;
 //                     contact faces as the body is walked; five rows per edge
 //   NAME.answer.json  see part_answer.hpp. Of displacement methods neither is there
+//   NAME.von_mises.csv, NAME.outline.csv  see part_picture.hpp; of `bench solve`
 //   NAME.error.csv    triangle, error_share: 0 to 1, of the squared constitutive relation error,
 //                     contact terms included; triangles in the order of NAME.stress.csv
 //   NAME.mean.csv     as NAME.stress.csv: mean of the stresses and those of the displacements
@@ -63,6 +64,7 @@ struct SolvedFields {
   std::optional<DisplacementField> w;
   const ConstitutiveError* error = nullptr;  // null if unknown
   std::optional<StressField> mean;
+  bool picture = false;  // also the files of part_picture.hpp
 };
 
 bool has_own_displacement(const Solution& solution);  // or the moments that it is recovered from

@@ -214,6 +214,7 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
   const Discretisation* known =
       bound && !record.other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
+  fields.picture = common_.picture;
   if (!has_own_displacement(solution) && known != nullptr && known->u.allFinite())
     fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "assembly/elements/edge_forces.hpp"
+#include "bench/measure/stress_samples.hpp"
 #include "bench/records/csv.hpp"
 #include "bench/verify/along_contact.hpp"
 #include "mesh/mesh.hpp"
@@ -196,32 +197,8 @@ class PartReader {
     return largest;
   }
 
-  // B_i of a straight third at its lattice, columns, with the places of its corners' weights.
-  struct Lattice {
-    Eigen::MatrixXd values;
-    std::vector<Eigen::Vector3d> weights;  // of the side's start and end, and the centroid
-    explicit Lattice(int degree) {
-      constexpr int n = 6;
-      values.resize(bernstein_count(degree), bernstein_count(n));
-      for (int c = 0; c <= n; ++c)
-        for (int b = 0; b <= n - c; ++b) {
-          const double y = static_cast<double>(b) / n, z = static_cast<double>(c) / n,
-                       x = static_cast<double>(n - b - c) / n;
-          const auto column = static_cast<Eigen::Index>(weights.size());
-          for (int j = 0; j <= degree; ++j)
-            for (int i = 0; i <= degree - j; ++i)
-              values(ring_place(degree, i, j), column) =
-                  binomial(degree, i) * binomial(degree - i, j) * std::pow(x, degree - i - j) *
-                  std::pow(y, i) * std::pow(z, j);
-          weights.emplace_back(x, y, z);
-        }
-    }
-  };
-
   LargestStress largest_stress(const StressField& stress) const {
     LargestStress largest;
-    const int degree = stress.degree();
-    const Lattice lattice(degree);
     const auto consider = [&](int t, const Eigen::Vector3d& s, const Eigen::Vector2d& x) {
       const double poisson =
           problem_.poisson_zz.empty() ? 0 : problem_.poisson_zz[mesh_.triangle_body[t]];
@@ -233,31 +210,12 @@ class PartReader {
         if (std::abs(value) > std::abs(largest.principal_MPa.value))
           largest.principal_MPa = {value, x};
     };
-    const Eigen::Index third = bernstein_count(degree);
-    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-      const TriangleVertices v = problem_.vertices_of(t);
-      const Eigen::Vector2d centroid = v.rowwise().mean();
-      const auto curves = problem_.curves_of(t, degree);
+    const StressSamples samples(problem_, stress, 6);
+    for (int t = 0; t < static_cast<int>(stress.size()); ++t)
       for (int k = 0; k < 3; ++k) {
-        const Eigen::Matrix3Xd own =
-            stress[static_cast<std::size_t>(t)].middleCols(k * third, third);
-        if (curves && !(*curves)[static_cast<std::size_t>(k)].is_straight()) {
-          const CurvedSide<double> side((*curves)[static_cast<std::size_t>(k)], degree);
-          for (int q = 0; q < CurvedSide<double>::points; ++q)
-            for (const double rho : {1., 0.5})
-              consider(t, own * side.bernstein(centroid, q, rho),
-                       centroid + rho * (side.at(q) - centroid));
-          consider(t, own.col(0), v.col(k));
-          consider(t, own.col(degree), v.col((k + 1) % 3));
-          continue;
-        }
-        const Eigen::Matrix3Xd at_lattice = own * lattice.values;
-        Eigen::Matrix<double, 2, 3> corners;
-        corners << v.col(k), v.col((k + 1) % 3), centroid;
-        for (std::size_t i = 0; i < lattice.weights.size(); ++i)
-          consider(t, at_lattice.col(static_cast<Eigen::Index>(i)), corners * lattice.weights[i]);
+        const auto [at_mm, of_third] = samples.third(t, k);
+        for (Eigen::Index i = 0; i < at_mm.cols(); ++i) consider(t, of_third.col(i), at_mm.col(i));
       }
-    }
     return largest;
   }
 

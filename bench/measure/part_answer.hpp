@@ -1,7 +1,7 @@
 // What an engineer asks of a part: forces, pressure and contact by face, reactions, the largest
 // stress and displacement. Written as NAME.answer.json next to the fields.
 //
-// Largest values are those of samples of the stresses' polynomials, 28 and more a third. Where the
+// Largest values are those of samples of the stresses' polynomials, 28 a third. Where the
 // exact stress is infinite (a corner of more than 180°, the end of a support or of a face that
 // sticks) they grow with every refinement; such places are named instead.
 #pragma once

@@ -27,6 +27,7 @@ struct CaseSettings {
   bool condition = false;    // estimate the condition number of the factorised matrix
   bool intervals = false;    // bound the contact forces (with stresses of degree > 1 always)
   bool fields = false;       // write stresses, displacements, contact points …
+  bool picture = false;      // … and the points of a part's picture (part_picture.hpp)
   bool mean_fields = false;  // … and their mean with the stresses of displacements
   // The total error of degree 1 comes from the displacements of P2; false: from recovered ones.
   bool error_of_displacements = false;

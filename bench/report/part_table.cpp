@@ -43,8 +43,8 @@ std::string within(const std::optional<double>& low, const std::optional<double>
   return low && high ? fmt::format(" in [{:.5g}, {:.5g}]", *low, *high) : "";
 }
 
-std::string faces_table(const Json& part, const Forces& forces) {
-  if (part["faces"].empty()) return "";
+Rows faces_table(const Json& part, const Forces& forces) {
+  if (part["faces"].empty()) return {};
   Rows rows = {{"contact", "force x, y N", "F_n N", "F_t N", "peak MPa", "at mm", "closed mm",
                 "of that slips mm"}};
   for (const Json& face : part["faces"]) {
@@ -57,58 +57,59 @@ std::string faces_table(const Json& part, const Forces& forces) {
                     fmt::format("{:.4g} of {:.4g}", closed, length),
                     closed > 0 ? fmt::format("{:.4g}", face["slipping_mm"].get<double>()) : "-"});
   }
-  return aligned_table(rows, 1) + "\n";
+  return rows;
 }
 
-std::string supports_table(const Json& part, const Forces& forces) {
-  if (part["supports"].empty()) return "";
+Rows supports_table(const Json& part, const Forces& forces) {
+  if (part["supports"].empty()) return {};
   Rows rows = {{"support", "force x, y N", ""}};
   for (const Json& support : part["supports"])
     rows.push_back({support["name"], forces.both(support["force_N"]), ""});
-  return aligned_table(rows, 1) + "\n";
+  return rows;
 }
 
-std::string contact_lines(const Record& r) {
-  std::string text;
-  if (!r.largest_pressure_MPa || *r.largest_pressure_MPa <= 0) return text;
+void add_contact_lines(const Record& r, PartReport& report) {
+  if (!r.largest_pressure_MPa || *r.largest_pressure_MPa <= 0) return;
   if (r.normal_resultant_N)
-    text += fmt::format("Σ F_n {:.5g} N{}{}\n", *r.normal_resultant_N,
-                        within(r.normal_resultant_low_N, r.normal_resultant_high_N),
-                        r.normal_resultant_low_N ? ", " + r.intervals : "");
-  if (r.largest_pressure_is == "unbounded")
-    return text + "largest pressure: unbounded, at a sharp edge\n";
-  text += fmt::format("largest pressure {:.5g} MPa{}", *r.largest_pressure_MPa,
-                      within(r.largest_pressure_low_MPa, r.largest_pressure_high_MPa));
+    report.emplace_back(fmt::format("Σ F_n {:.5g} N{}{}", *r.normal_resultant_N,
+                                    within(r.normal_resultant_low_N, r.normal_resultant_high_N),
+                                    r.normal_resultant_low_N ? ", " + r.intervals : ""));
+  if (r.largest_pressure_is == "unbounded") {
+    report.emplace_back("largest pressure: unbounded, at a sharp edge");
+    return;
+  }
+  std::string text = fmt::format("largest pressure {:.5g} MPa{}", *r.largest_pressure_MPa,
+                                 within(r.largest_pressure_low_MPa, r.largest_pressure_high_MPa));
   if (r.largest_pressure_is != "bounded")
     text += ": where contact ends sharply the exact one may be infinite";
-  return text + "\n";
+  report.emplace_back(std::move(text));
 }
 
-std::string stress_lines(const Json& part) {
-  std::string text;
+void add_stress_lines(const Json& part, PartReport& report) {
   if (part.contains("displacement_mm"))
-    text += fmt::format("largest displacement {:.5g} mm at {}\n",
-                        part["displacement_mm"]["value"].get<double>(),
-                        place(part["displacement_mm"]["at_mm"]));
-  if (part.contains("unbounded"))
-    return text + fmt::format("largest stress: unbounded at {}, {}\n",
-                              place(part["unbounded"]["at_mm"]),
-                              part["unbounded"]["what"].get<std::string>());
+    report.emplace_back(fmt::format("largest displacement {:.5g} mm at {}",
+                                    part["displacement_mm"]["value"].get<double>(),
+                                    place(part["displacement_mm"]["at_mm"])));
+  if (part.contains("unbounded")) {
+    report.emplace_back(fmt::format("largest stress: unbounded at {}, {}",
+                                    place(part["unbounded"]["at_mm"]),
+                                    part["unbounded"]["what"].get<std::string>()));
+    return;
+  }
   for (const auto& [name, key] :
        {std::pair("von Mises", "von_mises_MPa"), {"principal", "principal_MPa"}})
-    text += fmt::format(
-        "largest {} stress {:.5g}{} MPa at {}\n", name, part[key]["value"].get<double>(),
+    report.emplace_back(fmt::format(
+        "largest {} stress {:.5g}{} MPa at {}", name, part[key]["value"].get<double>(),
         part[key].contains("off") ? fmt::format(" ± {:.2g}", part[key]["off"].get<double>()) : "",
-        place(part[key]["at_mm"]));
-  return text;
+        place(part[key]["at_mm"])));
 }
 
 std::string percent(const std::optional<double>& share) {
   return share ? fmt::format("{:.2g} %", 100 * *share) : "-";
 }
 
-std::string steps_table(const Record& record) {
-  if (record.steps.size() < 2) return "";
+Rows steps_table(const Record& record) {
+  if (record.steps.size() < 2) return {};
   Rows rows = {{"step", "F_n N", "F_t N", "energy N mm", "dissipation N mm", "total error", ""}};
   const auto cell = [](const std::optional<double>& value) {
     return value ? number(*value) : std::string("-");
@@ -119,38 +120,56 @@ std::string steps_table(const Record& record) {
                     cell(step.tangential_resultant_N), cell(step.strain_energy_Nmm),
                     cell(step.dissipation_Nmm), percent(step.of_mesh.error_discretisation), ""});
   }
-  return aligned_table(rows, 1) + "\n";
+  return rows;
 }
 
 std::string error_line(const Record& r) {
   if (!r.error_total)
-    return fmt::format("its total error is not known{}{}\n",
+    return fmt::format("its total error is not known{}{}",
                        r.no_discretisation_error.empty() ? "" : ": ", r.no_discretisation_error);
   return fmt::format(
       "total error {:.2g} % in energy: of the mesh, its curves and the solver; not in it: small "
-      "strains, Coulomb's law, what is prescribed\n",
+      "strains, Coulomb's law, what is prescribed",
       100 * *r.error_total);
 }
 
 }  // namespace
 
-std::string part_table(const Record& record, const Json& part) {
-  std::string text;
+PartReport part_report(const Record& record, const Json& part) {
+  PartReport report;
+  const auto add_table = [&](Rows rows) {
+    if (!rows.empty()) report.emplace_back(std::move(rows));
+  };
   if (!part.is_null()) {
     const Forces forces(part);
-    text += faces_table(part, forces) + supports_table(part, forces);
-    if (!part["faces"].empty()) text += contact_lines(record);
-    text += stress_lines(part);
+    add_table(faces_table(part, forces));
+    add_table(supports_table(part, forces));
+    if (!part["faces"].empty()) add_contact_lines(record, report);
+    add_stress_lines(part, report);
   }
-  text += steps_table(record);
+  add_table(steps_table(record));
   if (record.strain_energy_Nmm)
-    text += fmt::format("strain energy {:.5g} N mm\n", *record.strain_energy_Nmm);
-  text += error_line(record);
+    report.emplace_back(fmt::format("strain energy {:.5g} N mm", *record.strain_energy_Nmm));
+  report.emplace_back(error_line(record));
   if (record.status != Status::ok)
-    text += fmt::format("{}: {}\n", name_of(record.status), record.status_reason);
+    report.emplace_back(fmt::format("{}: {}", name_of(record.status), record.status_reason));
   else if (!record.status_reason.empty())
-    text += fmt::format("note: {}\n", record.status_reason);
+    report.emplace_back(fmt::format("note: {}", record.status_reason));
+  return report;
+}
+
+std::string text_of(const PartReport& report) {
+  std::string text;
+  for (const auto& part : report)
+    text += (part.index() == 0 ? std::get<0>(part) : aligned_table(std::get<1>(part), 1)) + "\n";
   return text;
+}
+
+Json to_json(const PartReport& report) {
+  Json json = Json::array();
+  for (const auto& part : report)
+    std::visit([&](const auto& value) { json.push_back(value); }, part);
+  return json;
 }
 
 }  // namespace airybench

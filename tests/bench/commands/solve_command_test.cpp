@@ -1,7 +1,9 @@
 // `bench solve` from outside: decks as they are, quantities with an error, and what is refused.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
@@ -107,6 +109,59 @@ TEST_F(SolveCommand, APlateWithAHoleHasItsStressThere) {
   EXPECT_NEAR(largest, 313.58, off);
   EXPECT_NEAR(answer["von_mises_MPa"]["at_mm"][1].get<double>(), 1, 0.01);
 }
+
+// Parts of docs/bodies against what is known of them.
+struct Known {
+  const char *part, *quantity;
+  double value, within;
+};
+class SolvedPart : public SolveCommand, public ::testing::WithParamInterface<const char*> {};
+
+// Lamé's pressure of a ring of aluminium, 10 µm too small for a shaft of steel, in plane strain.
+double press_fit_MPa() {
+  const auto plane = [](double E, double nu) {
+    return std::pair(E / (1 - nu * nu), nu / (1 - nu));
+  };
+  const auto [E_shaft, nu_shaft] = plane(210000, 0.3);
+  const auto [E_ring, nu_ring] = plane(70000, 0.33);
+  const double r = 10, R = 20, ring = (R * R + r * r) / (R * R - r * r) + nu_ring;
+  return 0.01 / r / (ring / E_ring + (1 - nu_shaft) / E_shaft);
+}
+// Hertz' pressure of a roller of 10 mm on a plate, both of steel, and half the width of contact.
+constexpr double roller_N = 10 * 2 * std::numbers::pi * 3, stiff_MPa = 210000 / (1 - 0.09) / 2;
+double roller_MPa() { return std::sqrt(roller_N * stiff_MPa / (std::numbers::pi * 10)); }
+double roller_mm() { return 2 * roller_N / (std::numbers::pi * roller_MPa()); }
+constexpr double block_N = 40 * 20 * 7.7e-5, slope = std::numbers::pi / 12;
+
+const std::vector<Known>& known() {
+  static const std::vector<Known> list = {
+      {"press_fit", "/faces/0/pressure_MPa/value", press_fit_MPa(), 0.01},
+      {"press_fit", "/faces/0/slipping_mm", 0, 1e-9},
+      {"roller_on_plate", "/faces/0/pressure_MPa/value", roller_MPa(), 0.02},
+      {"roller_on_plate", "/faces/0/closed_mm", 2 * roller_mm(), 0.1},
+      {"roller_on_plate", "/supports/0/force_N/1", roller_N, 1e-6},
+      {"slope", "/faces/0/normal_N", -block_N * std::cos(slope), 1e-6},
+      {"slope", "/faces/0/force_N/0", 0, 1e-6},
+      {"slope", "/faces/0/force_N/1", block_N, 1e-6},
+      {"bracket", "/supports/0/force_N/1", 15, 1e-6},
+      {"bracket", "/supports/1/force_N/0", 0, 1e-6},
+  };
+  return list;
+}
+
+TEST_P(SolvedPart, HasWhatIsKnownOfIt) {
+  const std::string file = (testing::source_folder() / "docs/bodies" / GetParam()).string();
+  const Json answer = solved(fmt::format("{0}.geo {0}.json", file));
+  for (const Known& one : known())
+    if (one.part == std::string(GetParam()))
+      EXPECT_NEAR(answer.at(Json::json_pointer(one.quantity)).get<double>(), one.value,
+                  one.within * std::max(1., std::abs(one.value)))
+          << one.quantity;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, SolvedPart,
+                         ::testing::Values("press_fit", "roller_on_plate", "slope", "bracket"),
+                         [](const auto& part) { return std::string(part.param); });
 
 TEST_F(SolveCommand, DecksOfOtherProblemsAreRefused) {
   for (const auto& [name, why] :

@@ -1,0 +1,359 @@
+#!/usr/bin/python3
+"""Draws the answer of `bench solve`, and makes a page of it.
+
+    part.py RESULTS_DIR [--html] [--vector]
+
+figures/part.png: the von Mises stress, the outline displaced, the loads, the pressure on contact faces.
+--html: also part.html, which has the picture and all that `bench solve` prints, and fetches nothing.
+--vector: the picture also as .svg and .pdf. Exit 2: wrong input, or a folder that cannot be written;
+one line says which.
+"""
+import argparse
+import base64
+import html
+from dataclasses import dataclass
+from functools import partial
+from io import BytesIO
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+from matplotlib.tri import Triangulation
+
+import command
+from drawing import (MARGIN, PAGE_WIDTH, SMALLEST_PT, STYLE, TYPE, axes_at, bar_below, for_papers, text_at,
+                     write_small_png)
+from field_drawing import (ARROW_PT, COLORMAP, LINES, MOVED, OUTLINE, ROLE, ROLLER, SPACING_PT, TICKED, WEAKEST,
+                           highest_but, load_arrow, round_below)
+from fields import chains
+from page import hash_of, part as page_part
+from records import RecordsError, json_of, text_of
+from words import plain, wrapped
+
+DPI = 130
+LEFT, RIGHT, BELOW, HIGHEST = 0.55, 0.35, 0.95, 5.6  # around the axes; their height at most
+PRESSURE = ROLE["contact"]["color"]
+TALLEST, WORDS = 0.12, 0.04  # the largest pressure, what it is: of the body's size
+COMB_PT = 6     # between the lines that fill a pressure
+NOTE = dict(fontsize=TYPE, path_effects=[withStroke(linewidth=2.5, foreground="white")], zorder=8)
+
+
+@dataclass(frozen=True)
+class Part:
+    shown: dict            # part.json
+    answer: dict           # NAME.answer.json
+    thirds: np.ndarray     # (N, points, 3): x, y, von Mises stress; lattices from the side to the centroid
+    outline: pd.DataFrame  # NAME.outline.csv, the same number of points for each edge
+    faces: pd.DataFrame    # NAME.faces.csv
+
+    @property
+    def edges(self) -> np.ndarray:
+        """(edges, points, columns): x, y; displacement (NaN: unknown); traction."""
+        columns = ["x_mm", "y_mm", "ux_mm", "uy_mm", "tx_MPa", "ty_MPa"]
+        return self.outline[columns].to_numpy(float).reshape(self.outline.edge.iat[-1], -1, 6)
+
+    @property
+    def roles(self) -> np.ndarray:
+        return self.outline.role.to_numpy().reshape(self.outline.edge.iat[-1], -1)[:, 0]
+
+    @property
+    def size(self) -> float:
+        return float(np.ptp(self.outline[["x_mm", "y_mm"]].to_numpy(), axis=0).max())
+
+
+def read_part(results: Path) -> Part:
+    file = results / "part.json"
+    shown = json_of(text_of(file), str(file))
+
+    def path(part: str) -> Path:
+        return results / "fields" / f"{shown['case']}.{part}"
+
+    def table(part: str, per: str) -> pd.DataFrame:
+        try:
+            read = pd.read_csv(path(part))
+            assert len(read) and len(read) % read[per].iat[-1] == 0
+        except (ValueError, KeyError, AssertionError) as error:
+            raise RecordsError(f"{path(part)}: not as bench solve writes it {error}".rstrip()) from None
+        return read
+
+    stress = table("von_mises.csv", "third")
+    faces = pd.read_csv(path("faces.csv"))
+    return Part(shown, json_of(text_of(path("answer.json")), str(path("answer.json"))),
+                stress.to_numpy()[:, 1:].reshape(stress.third.iat[-1], -1, 3), table("outline.csv", "edge"), faces)
+
+
+def cells_of(points: int) -> np.ndarray:
+    """(cells, 3) numbers of a lattice's points, rows from the side to the centroid."""
+    parts = round(np.sqrt(2 * points + 0.25) - 1.5)
+    cells, start = [], 0
+    for row in range(parts, 0, -1):
+        above = start + row + 1
+        cells += [(start + j, start + j + 1, above + j) for j in range(row)]
+        cells += [(start + j + 1, above + j + 1, above + j) for j in range(row - 1)]
+        start = above
+    return np.array(cells)
+
+
+def scale_of(part: Part) -> Normalize:
+    """To the largest stress; where that is not bounded, to what most of the body has."""
+    if "unbounded" not in part.answer:
+        return Normalize(0, part.answer["von_mises_MPa"]["value"] or 1)
+    a, b, c = (part.thirds[:, k, :2] for k in (0, round(np.sqrt(2 * part.thirds.shape[1] + 0.25) - 1.5), -1))
+    area = np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
+    return Normalize(0, highest_but(part.thirds[..., 2].ravel(), np.repeat(area, part.thirds.shape[1]),
+                                    0.995, 1.6) or 1)
+
+
+def draw_stress(axes: Axes, part: Part, scale: Normalize) -> None:
+    count, points = part.thirds.shape[:2]
+    cells = (np.arange(count)[:, None, None] * points + cells_of(points)).reshape(-1, 3)
+    x, y, stress = part.thirds.reshape(-1, 3).T
+    axes.tripcolor(Triangulation(x, y, cells), stress, shading="gouraud", cmap=COLORMAP, norm=scale,
+                   rasterized=True)
+
+
+def lines_of(points: np.ndarray) -> list[np.ndarray]:
+    """(edges, points, 2) -> each chain of edges as one line."""
+    return [points[chain].reshape(-1, 2) for chain in chains(points[:, [0, -1]])]
+
+
+def draw_outline(axes: Axes, part: Part) -> None:
+    for role, style in LINES.items():
+        edges = part.edges[part.roles == role]
+        for line in lines_of(edges[..., :2]):
+            drawn, = axes.plot(*line.T, **style, zorder=4, solid_capstyle="butt")
+            if role == "displacement":
+                drawn.set_path_effects([TICKED])
+        if role == "rollers" and len(edges):
+            axes.plot(*edges[:, edges.shape[1] // 2, :2].T, **ROLLER, zorder=4)
+
+
+def enlargement(part: Part) -> float | None:
+    largest = np.hypot(*part.edges[..., 2:4].reshape(-1, 2).T).max()
+    return round_below(MOVED * part.size / largest) if largest > 0 else None
+
+
+def draw_displaced(axes: Axes, part: Part, times: float | None) -> None:
+    if times is not None:
+        for line in lines_of(part.edges[..., :2] + times * part.edges[..., 2:4]):
+            axes.plot(*line.T, **OUTLINE, zorder=5)
+
+
+def outward(line: np.ndarray) -> np.ndarray:
+    """Normals of a line with the body on its left; edges may meet in equal points."""
+    keep = np.append(True, np.hypot(*np.diff(line, axis=0).T) > 0)
+    tangent = np.gradient(line[keep], axis=0)[np.cumsum(keep) - 1]
+    return np.column_stack([tangent[:, 1], -tangent[:, 0]]) / np.hypot(*tangent.T)[:, None]
+
+
+def draw_pressures(axes: Axes, part: Part, limit: float) -> None:
+    """On every face, of a pair outside the first body, up to `limit`, MPa; with the largest value."""
+    height = TALLEST * part.size / limit
+    for face in part.answer["faces"]:
+        own = part.faces[part.faces.face == face["name"].split(" on ")[0]]
+        if not face["pressure_MPa"]["value"] > 0:
+            continue
+        starts = np.append(np.flatnonzero(np.diff(own.along_mm, prepend=np.inf) < 0), len(own))
+        peak, place = np.array(face["pressure_MPa"]["at_mm"]), None
+        for first, last in zip(starts, starts[1:]):
+            base = own[["x_mm", "y_mm"]].to_numpy()[first:last]
+            pressure = np.clip(own.pressure_MPa.to_numpy()[first:last], 0, limit)
+            normal = outward(base)
+            tips = base + height * pressure[:, None] * normal
+            pressed = np.convolve(pressure > 1e-3 * limit, (1, 1, 1), "same") > 0  # with its ends
+            axes.fill(*np.vstack([base, tips[::-1]]).T, facecolor=PRESSURE, alpha=0.18, linewidth=0, zorder=5)
+            axes.plot(*np.where(pressed[:, None], tips, np.nan).T, color=PRESSURE, linewidth=1, zorder=6)
+            axes.add_collection(LineCollection(comb(axes, base[pressed], tips[pressed]), color=PRESSURE,
+                                               linewidth=0.5, zorder=6))
+            nearest = np.hypot(*(base - peak).T).argmin()
+            if place is None or np.hypot(*(base[nearest] - peak)) < place[0]:
+                place = np.hypot(*(base[nearest] - peak)), tips[nearest], normal[nearest]
+        words = "unbounded" if part.shown["largest_pressure_is"] == "unbounded" and \
+            face["pressure_MPa"]["value"] >= limit else f"{face['pressure_MPa']['value']:.4g} MPa"
+        axes.annotate(words, place[1], xytext=10 * place[2], textcoords="offset points", color=PRESSURE,
+                      ha="center" if abs(place[2][0]) < 0.7 else "left" if place[2][0] > 0 else "right",
+                      va="center" if abs(place[2][1]) < 0.7 else "bottom" if place[2][1] > 0 else "top", **NOTE)
+
+
+def comb(axes: Axes, base: np.ndarray, tips: np.ndarray) -> np.ndarray:
+    """Lines from a face to its pressure, COMB_PT apart on the sheet: (lines, 2, 2)."""
+    if len(base) < 2:
+        return np.empty((0, 2, 2))
+    at = axes.transData.transform(base) * 72 / axes.figure.dpi
+    along = np.append(0, np.cumsum(np.hypot(*np.diff(at, axis=0).T)))
+    places = np.linspace(0, along[-1], max(2, round(along[-1] / COMB_PT) + 1))
+    return np.stack([np.column_stack([np.interp(places, along, ends[:, k]) for k in (0, 1)])
+                     for ends in (base, tips)], 1)
+
+
+def draw_loads(axes: Axes, part: Part) -> float:
+    """Arrows of the given tractions; gives the largest, MPa."""
+    traction = np.hypot(*np.moveaxis(part.edges[..., 4:6], -1, 0))
+    largest = float(traction.max())
+    loaded = part.edges[traction.max(1) > WEAKEST * largest] if largest > 0 else []
+    for chain in chains(loaded[:, [0, -1], :2]) if len(loaded) else []:
+        line = loaded[chain].reshape(-1, 6)
+        at = axes.transData.transform(line[:, :2]) * 72 / axes.figure.dpi
+        along = np.append(0, np.cumsum(np.hypot(*np.diff(at, axis=0).T)))
+        count = max(1, int(along[-1] / SPACING_PT))
+        normals = outward(line[:, :2])
+        for place in (np.arange(count) + 0.5) * along[-1] / count:
+            t = np.array([np.interp(place, along, line[:, k]) for k in (4, 5)])
+            if np.hypot(*t) < WEAKEST * largest:
+                continue
+            point = np.array([np.interp(place, along, at[:, k]) for k in (0, 1)])
+            load_arrow(axes, point, ARROW_PT * t / largest, normals[np.abs(along - place).argmin()])
+    return largest
+
+
+def mark_largest(axes: Axes, part: Part) -> None:
+    unbounded, stress = part.answer.get("unbounded"), part.answer["von_mises_MPa"]
+    if not stress["value"] > 0:
+        return
+    words = f"unbounded: {unbounded['what']}" if unbounded else f"largest {stress['value']:.4g} MPa"
+    x, y = (unbounded or stress)["at_mm"]
+    axes.plot(x, y, marker="o", markersize=7, markerfacecolor="none", markeredgecolor="white",
+              markeredgewidth=2.6, zorder=7)
+    axes.plot(x, y, marker="o", markersize=7, markerfacecolor="none", markeredgecolor="black",
+              markeredgewidth=1.2, zorder=7)
+    across, up = axes.transAxes.inverted().transform(axes.transData.transform((x, y)))
+    for face in part.answer["faces"]:  # away from a pressure's words
+        if np.hypot(*(np.array(face["pressure_MPa"]["at_mm"]) - (x, y))) < TALLEST * part.size:
+            up = 0 if face["pressure_MPa"]["at_mm"][1] <= y else 1
+    axes.annotate(words, (x, y), xytext=(9 if across < 0.5 else -9, 12 if up < 0.5 else -12),
+                  textcoords="offset points", weight="bold", ha="left" if across < 0.5 else "right",
+                  va="bottom" if up < 0.5 else "top", **NOTE)
+
+
+def title_of(part: Part) -> str:
+    error = part.shown["error_total"]
+    return f"{part.shown['name']}: " + ("total error not known" if error is None else
+                                        f"total error {100 * error:.2g} % in energy")
+
+
+def draw(part: Part) -> Figure:
+    times, scale = enlargement(part), scale_of(part)
+    peaks = [face["pressure_MPa"]["value"] for face in part.answer["faces"]]
+    highest = max(peaks, default=0)
+    limit = highest
+    if part.shown["largest_pressure_is"] == "unbounded" and highest > 0:
+        pressed = part.faces.pressure_MPa.to_numpy().clip(0)
+        limit = highest_but(pressed[pressed > 0], np.ones((pressed > 0).sum()), 0.95, 2)
+
+    corners = part.edges[..., :2].reshape(-1, 2)
+    shown = [corners, corners + (times or 0) * np.nan_to_num(part.edges[..., 2:4].reshape(-1, 2))]
+    low, high = (end(np.vstack(shown), axis=0) for end in (np.min, np.max))
+    margin = 0.02 * part.size + ((TALLEST + WORDS) * part.size if limit > 0 and wall_is_near(part, low, high) else 0)
+    low, high = low - margin, high + margin
+    across = PAGE_WIDTH - LEFT - RIGHT
+    height = min(across * (high - low)[1] / (high - low)[0], HIGHEST)
+    width = height * (high - low)[0] / (high - low)[1]
+    words = wrapped([part.shown["assumptions"].split(": ", 1)[-1]], PAGE_WIDTH - 2 * MARGIN, TYPE)
+    top = 0.36 + 0.155 * len(words)
+    figure = Figure(figsize=(PAGE_WIDTH, top + height + BELOW))
+    text_at(figure, MARGIN, 0.08, plain("von Mises stress of " + title_of(part)), fontsize=11, weight="bold")
+    for k, line in enumerate(words):
+        text_at(figure, MARGIN, 0.3 + 0.155 * k, plain(line), color="0.35")
+    axes = axes_at(figure, LEFT + (across - width) / 2, top, width, height, xlim=(low[0], high[0]),
+                   ylim=(low[1], high[1]))
+    axes.spines[:].set_visible(False)
+    axes.set_xlabel("x, mm", labelpad=1)
+    axes.set_ylabel("y, mm", labelpad=2)
+    draw_stress(axes, part, scale)
+    draw_outline(axes, part)
+    draw_displaced(axes, part, times)
+    load = draw_loads(axes, part)
+    if limit > 0:
+        draw_pressures(axes, part, limit)
+    mark_largest(axes, part)
+    draw_legend(figure, part, times, load, limit > 0)
+    bar_below(figure, ScalarMappable(scale, COLORMAP), 0.64, 0.31, "von Mises stress, MPa" +
+              ("; brightest: this or more" if "unbounded" in part.answer else ""))
+    return figure
+
+
+def wall_is_near(part: Part, low: np.ndarray, high: np.ndarray) -> bool:
+    """Some pressure reaches beyond the body."""
+    at = np.array([face["pressure_MPa"]["at_mm"] for face in part.answer["faces"]])
+    return bool(len(at)) and float(min((at - low).min(), (high - at).min())) < TALLEST * part.size
+
+
+def draw_legend(figure: Figure, part: Part, times: float | None, load: float, has_pressure: bool) -> None:
+    edge = ROLE["force"]
+    lines = (("held", "displacement" in part.roles, ROLE["displacement"] | {"path_effects": [TICKED]}),
+             ("on rollers", "rollers" in part.roles, edge | ROLLER | {"linestyle": "-"}),
+             ("contact", "contact" in part.roles, ROLE["contact"]),
+             (f"outline, displacement × {times or 0:g}", times is not None, OUTLINE),
+             (f"load, up to {load:.3g} MPa", load > 0, edge | {"marker": ">", "markersize": 4}))
+    handles = [Line2D([], [], **style, label=label) for label, drawn, style in lines if drawn]
+    if has_pressure:
+        handles.append(Patch(facecolor=PRESSURE, alpha=0.4, label="contact pressure"))
+    figure.legend(handles=handles, loc="lower left", ncol=2, frameon=False, fontsize=SMALLEST_PT + 1,
+                  columnspacing=1.2, borderaxespad=0.2, bbox_to_anchor=(0, 0))
+
+
+def page(part: Part, picture: bytes) -> str:
+    style = page_part("page.css") + page_part("part.css")
+    image = base64.b64encode(picture).decode()
+    notes = "".join(f"<li>{html.escape(note)}</li>" for note in part.shown["notes"])
+    fill = {"STYLE": style, "STYLE_HASH": hash_of(style), "TITLE": html.escape(title_of(part)),
+            "ASSUMPTIONS": html.escape(part.shown["assumptions"]),
+            "PICTURE": f'<img alt="von Mises stress of {html.escape(part.shown["name"])}" '
+                       f'src="data:image/png;base64,{image}">',
+            "REPORT": "\n".join(map(block, part.shown["report"])),
+            "NOTES": notes or "<li>Everything was read as it is.</li>"}
+    pieces = page_part("part.html").split("%%")  # text, name, text, name, ... text
+    return "".join(fill[piece] if k % 2 else piece for k, piece in enumerate(pieces))
+
+
+def block(of: str | list[list[str]]) -> str:
+    if isinstance(of, str):
+        return f"<p>{html.escape(of)}</p>"
+    columns = [k for k, head in enumerate(of[0]) if head]
+    head = "".join(f'<th scope="col">{html.escape(of[0][k])}</th>' for k in columns)
+    rows = "".join("<tr>" + "".join(f'<th scope="row">{html.escape(row[k])}</th>' if k == 0 else
+                                    f"<td>{html.escape(row[k])}</td>" for k in columns) + "</tr>"
+                   for row in of[1:])
+    return f'<div class="scroll" tabindex="0"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="the --out of bench solve")
+    parser.add_argument("--html", action="store_true", help="also a page, part.html")
+    parser.add_argument("--vector", action="store_true", help="the picture also as .svg and .pdf")
+
+
+def make(args: argparse.Namespace) -> None:
+    part = read_part(args.results)
+    with matplotlib.rc_context(STYLE):
+        figure = draw(part)
+        picture = BytesIO()
+        write_small_png(figure, DPI, picture)
+        folder = args.results / "figures"
+        folder.mkdir(exist_ok=True)
+        made = command.Made(folder, "part.py")
+        made.replace({"part.png": partial(Path.write_bytes, data=picture.getvalue())} |
+                     (for_papers(figure, "part") if args.vector else {}))
+        made.remove_others()
+    print(f"picture: {folder / 'part.png'}")
+    if args.html:
+        text = command.text_writer(page(part, picture.getvalue()))
+        command.replace_all(args.results, {"part.html": text})
+        print(f"page: {args.results / 'part.html'}")
+
+
+def main() -> None:
+    command.run(__doc__, add_arguments, make, "a folder to write to")
+
+
+if __name__ == "__main__":
+    main()
