@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colorbar import Colorbar
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
@@ -132,16 +133,17 @@ def panel_at(figure: Figure, left: float, top: float, width: float, height: floa
 
 
 def colour_bar(figure: Figure, shades: ScalarMappable, left: float, top: float, width: float,
-               words: str) -> None:
+               words: str) -> Colorbar:
     bar = figure.colorbar(shades, orientation="horizontal", cax=axes_at(figure, left, top, width, 0.1))
     bar.ax.tick_params(pad=1, length=2)
     bar.set_label(words, labelpad=1)
+    return bar
 
 
-def bar_below(figure: Figure, shades: ScalarMappable, left: float, width: float, words: str) -> None:
+def bar_below(figure: Figure, shades: ScalarMappable, left: float, width: float, words: str) -> Colorbar:
     """left, width: of the figure's."""
     across, height = figure.get_size_inches()
-    colour_bar(figure, shades, left * across, height - 0.48, width * across, words)
+    return colour_bar(figure, shades, left * across, height - 0.48, width * across, words)
 
 
 def side_by_side(figure: Figure, titles: Iterable[str], left: float, top: float, height: float,

@@ -25,12 +25,13 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.patches import Patch, Rectangle
 from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
 import command
-from drawing import (MARGIN, PAGE_WIDTH, SMALLEST_PT, STYLE, TYPE, axes_at, bar_below, for_papers, text_at,
+from drawing import (LINE, MARGIN, PAGE_WIDTH, SMALLEST_PT, STYLE, TYPE, axes_at, bar_below, for_papers, text_at,
                      write_small_png)
 from field_drawing import (ARROW_PT, COLORMAP, LINES, MOVED, OUTLINE, ROLE, ROLLER, SPACING_PT, TICKED, WEAKEST,
                            highest_but, load_arrow, round_below)
@@ -41,7 +42,9 @@ from words import plain, wrapped
 
 DPI = 130
 LEFT, RIGHT, BELOW, HIGHEST = 0.55, 0.35, 0.95, 5.6  # around the axes; their height at most
+NEAR = 2.4  # width and height of the enlarged contact
 PRESSURE = ROLE["contact"]["color"]
+NARROW, AROUND = 0.08, 1.5  # contact that is drawn enlarged, too: of the body's size; around it, of its length
 TALLEST, WORDS = 0.12, 0.04  # the largest pressure, what it is: of the body's size
 COMB_PT = 6     # between the lines that fill a pressure
 NOTE = dict(fontsize=TYPE, path_effects=[withStroke(linewidth=2.5, foreground="white")], zorder=8)
@@ -64,6 +67,10 @@ class Part:
     @property
     def roles(self) -> np.ndarray:
         return self.outline.role.to_numpy().reshape(self.outline.edge.iat[-1], -1)[:, 0]
+
+    @property
+    def pieces(self) -> np.ndarray:
+        return self.outline.piece.to_numpy().reshape(self.outline.edge.iat[-1], -1)[:, 0]
 
     @property
     def size(self) -> float:
@@ -121,15 +128,19 @@ def draw_stress(axes: Axes, part: Part, scale: Normalize) -> None:
                    rasterized=True)
 
 
-def lines_of(points: np.ndarray) -> list[np.ndarray]:
-    """(edges, points, 2) -> each chain of edges as one line."""
-    return [points[chain].reshape(-1, 2) for chain in chains(points[:, [0, -1]])]
+def lines_of(part: Part, chosen: np.ndarray, points: np.ndarray) -> list[np.ndarray]:
+    """(edges, points, 2) -> the chosen edges (edges,), each chain of a body's as one line."""
+    found = []
+    for piece in np.unique(part.pieces):
+        own = np.flatnonzero(chosen & (part.pieces == piece))
+        found += [points[own[chain]].reshape(-1, points.shape[2]) for chain in chains(part.edges[own][:, [0, -1], :2])]
+    return found
 
 
 def draw_outline(axes: Axes, part: Part) -> None:
     for role, style in LINES.items():
         edges = part.edges[part.roles == role]
-        for line in lines_of(edges[..., :2]):
+        for line in lines_of(part, part.roles == role, part.edges[..., :2]):
             drawn, = axes.plot(*line.T, **style, zorder=4, solid_capstyle="butt")
             if role == "displacement":
                 drawn.set_path_effects([TICKED])
@@ -144,7 +155,8 @@ def enlargement(part: Part) -> float | None:
 
 def draw_displaced(axes: Axes, part: Part, times: float | None) -> None:
     if times is not None:
-        for line in lines_of(part.edges[..., :2] + times * part.edges[..., 2:4]):
+        moved = part.edges[..., :2] + times * part.edges[..., 2:4]
+        for line in lines_of(part, part.roles != "", moved):
             axes.plot(*line.T, **OUTLINE, zorder=5)
 
 
@@ -155,33 +167,44 @@ def outward(line: np.ndarray) -> np.ndarray:
     return np.column_stack([tangent[:, 1], -tangent[:, 0]]) / np.hypot(*tangent.T)[:, None]
 
 
-def draw_pressures(axes: Axes, part: Part, limit: float) -> None:
-    """On every face, of a pair outside the first body, up to `limit`, MPa; with the largest value."""
-    height = TALLEST * part.size / limit
-    for face in part.answer["faces"]:
-        own = part.faces[part.faces.face == face["name"].split(" on ")[0]]
-        if not face["pressure_MPa"]["value"] > 0:
-            continue
+def pressures(part: Part, face: dict) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+    """Lines of a face, its pressure there (MPa) and outward normals; of a pair those of the side that is not
+    hollow, so that lines along the normals do not cross."""
+    def of_side(label: str) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
+        own = part.faces[part.faces.face == label]
         starts = np.append(np.flatnonzero(np.diff(own.along_mm, prepend=np.inf) < 0), len(own))
-        peak, place = np.array(face["pressure_MPa"]["at_mm"]), None
-        for first, last in zip(starts, starts[1:]):
-            base = own[["x_mm", "y_mm"]].to_numpy()[first:last]
-            pressure = np.clip(own.pressure_MPa.to_numpy()[first:last], 0, limit)
-            normal = outward(base)
-            tips = base + height * pressure[:, None] * normal
+        xy, pressure = own[["x_mm", "y_mm"]].to_numpy(), own.pressure_MPa.to_numpy()
+        return [(xy[a:b], pressure[a:b], outward(xy[a:b])) for a, b in zip(starts, starts[1:])]
+
+    def spread(side: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> float:
+        return sum((np.diff(base, axis=0) * np.diff(normal, axis=0)).sum() for base, _, normal in side)
+    return max(map(of_side, face["name"].split(" on ")), key=spread)
+
+
+def draw_pressures(axes: Axes, part: Part, limit: float, size: float) -> None:
+    """On every face, up to `limit`, MPa, which is TALLEST of `size`; with the largest value."""
+    height = TALLEST * size / limit
+    for face in part.answer["faces"]:
+        highest = face["pressure_MPa"]["value"]
+        if not highest > 0:
+            continue
+        lines = pressures(part, face)
+        for base, pressure, normal in lines:
+            tips = base + height * np.clip(pressure, 0, limit)[:, None] * normal
             pressed = np.convolve(pressure > 1e-3 * limit, (1, 1, 1), "same") > 0  # with its ends
             axes.fill(*np.vstack([base, tips[::-1]]).T, facecolor=PRESSURE, alpha=0.18, linewidth=0, zorder=5)
             axes.plot(*np.where(pressed[:, None], tips, np.nan).T, color=PRESSURE, linewidth=1, zorder=6)
             axes.add_collection(LineCollection(comb(axes, base[pressed], tips[pressed]), color=PRESSURE,
                                                linewidth=0.5, zorder=6))
-            nearest = np.hypot(*(base - peak).T).argmin()
-            if place is None or np.hypot(*(base[nearest] - peak)) < place[0]:
-                place = np.hypot(*(base[nearest] - peak)), tips[nearest], normal[nearest]
-        words = "unbounded" if part.shown["largest_pressure_is"] == "unbounded" and \
-            face["pressure_MPa"]["value"] >= limit else f"{face['pressure_MPa']['value']:.4g} MPa"
-        axes.annotate(words, place[1], xytext=10 * place[2], textcoords="offset points", color=PRESSURE,
-                      ha="center" if abs(place[2][0]) < 0.7 else "left" if place[2][0] > 0 else "right",
-                      va="center" if abs(place[2][1]) < 0.7 else "bottom" if place[2][1] > 0 else "top", **NOTE)
+        base, pressure, normal = map(np.concatenate, zip(*lines))
+        at = np.hypot(*(base - face["pressure_MPa"]["at_mm"]).T).argmin()
+        is_unbounded = part.shown["largest_pressure_is"] == "unbounded" and highest >= limit
+        x, y = normal[at]
+        axes.annotate("unbounded" if is_unbounded else f"{highest:.4g} MPa",
+                      base[at] + height * min(highest, limit) * normal[at], xytext=(8 * x, 8 * y),
+                      textcoords="offset points", color=PRESSURE, annotation_clip=True,
+                      ha="center" if abs(x) < 0.7 else "left" if x > 0 else "right",
+                      va="center" if abs(y) < 0.7 else "bottom" if y > 0 else "top", **NOTE)
 
 
 def comb(axes: Axes, base: np.ndarray, tips: np.ndarray) -> np.ndarray:
@@ -195,13 +218,10 @@ def comb(axes: Axes, base: np.ndarray, tips: np.ndarray) -> np.ndarray:
                      for ends in (base, tips)], 1)
 
 
-def draw_loads(axes: Axes, part: Part) -> float:
-    """Arrows of the given tractions; gives the largest, MPa."""
+def draw_loads(axes: Axes, part: Part, largest: float) -> None:
+    """Arrows of the given tractions; largest: of them, MPa."""
     traction = np.hypot(*np.moveaxis(part.edges[..., 4:6], -1, 0))
-    largest = float(traction.max())
-    loaded = part.edges[traction.max(1) > WEAKEST * largest] if largest > 0 else []
-    for chain in chains(loaded[:, [0, -1], :2]) if len(loaded) else []:
-        line = loaded[chain].reshape(-1, 6)
+    for line in lines_of(part, traction.max(1) > WEAKEST * largest, part.edges) if largest > 0 else []:
         at = axes.transData.transform(line[:, :2]) * 72 / axes.figure.dpi
         along = np.append(0, np.cumsum(np.hypot(*np.diff(at, axis=0).T)))
         count = max(1, int(along[-1] / SPACING_PT))
@@ -212,24 +232,22 @@ def draw_loads(axes: Axes, part: Part) -> float:
                 continue
             point = np.array([np.interp(place, along, at[:, k]) for k in (0, 1)])
             load_arrow(axes, point, ARROW_PT * t / largest, normals[np.abs(along - place).argmin()])
-    return largest
 
 
-def mark_largest(axes: Axes, part: Part) -> None:
+def mark_largest(axes: Axes, part: Part, view: np.ndarray) -> None:
     unbounded, stress = part.answer.get("unbounded"), part.answer["von_mises_MPa"]
-    if not stress["value"] > 0:
+    at = np.array((unbounded or stress)["at_mm"])
+    if not stress["value"] > 0 or (at < view[0]).any() or (at > view[1]).any():
         return
+    for colour, width in (("white", 2.6), ("black", 1.2)):
+        axes.plot(*at, marker="o", markersize=7, markerfacecolor="none", markeredgecolor=colour,
+                  markeredgewidth=width, zorder=7)
+    across, up = (at - view[0]) / (view[1] - view[0])
+    for face in part.answer["faces"]:  # away from the words of a pressure
+        if np.hypot(*(away := at - face["pressure_MPa"]["at_mm"])) < TALLEST * np.ptp(view[:, 0]):
+            up = 0 if away[1] >= 0 and at[1] != view[0, 1] else 1
     words = f"unbounded: {unbounded['what']}" if unbounded else f"largest {stress['value']:.4g} MPa"
-    x, y = (unbounded or stress)["at_mm"]
-    axes.plot(x, y, marker="o", markersize=7, markerfacecolor="none", markeredgecolor="white",
-              markeredgewidth=2.6, zorder=7)
-    axes.plot(x, y, marker="o", markersize=7, markerfacecolor="none", markeredgecolor="black",
-              markeredgewidth=1.2, zorder=7)
-    across, up = axes.transAxes.inverted().transform(axes.transData.transform((x, y)))
-    for face in part.answer["faces"]:  # away from a pressure's words
-        if np.hypot(*(np.array(face["pressure_MPa"]["at_mm"]) - (x, y))) < TALLEST * part.size:
-            up = 0 if face["pressure_MPa"]["at_mm"][1] <= y else 1
-    axes.annotate(words, (x, y), xytext=(9 if across < 0.5 else -9, 12 if up < 0.5 else -12),
+    axes.annotate(words, at, xytext=(9 if across < 0.5 else -9, 12 if up < 0.5 else -12),
                   textcoords="offset points", weight="bold", ha="left" if across < 0.5 else "right",
                   va="bottom" if up < 0.5 else "top", **NOTE)
 
@@ -240,51 +258,74 @@ def title_of(part: Part) -> str:
                                         f"total error {100 * error:.2g} % in energy")
 
 
-def draw(part: Part) -> Figure:
-    times, scale = enlargement(part), scale_of(part)
-    peaks = [face["pressure_MPa"]["value"] for face in part.answer["faces"]]
-    highest = max(peaks, default=0)
-    limit = highest
-    if part.shown["largest_pressure_is"] == "unbounded" and highest > 0:
-        pressed = part.faces.pressure_MPa.to_numpy().clip(0)
-        limit = highest_but(pressed[pressed > 0], np.ones((pressed > 0).sum()), 0.95, 2)
+def highest_pressure(part: Part) -> float:
+    """MPa; where it is not bounded, of most of the contact."""
+    highest = max((face["pressure_MPa"]["value"] for face in part.answer["faces"]), default=0)
+    pressed = part.faces.pressure_MPa[part.faces.pressure_MPa > 0].to_numpy()
+    if part.shown["largest_pressure_is"] == "unbounded" and pressed.size:
+        return highest_but(pressed, np.ones(pressed.size), 0.95, 2)
+    return highest
 
+
+def whole_view(part: Part, times: float | None, loads: bool, limit: float) -> np.ndarray:
+    """(2, 2) mm: lower left and upper right corner."""
     corners = part.edges[..., :2].reshape(-1, 2)
-    shown = [corners, corners + (times or 0) * np.nan_to_num(part.edges[..., 2:4].reshape(-1, 2))]
-    low, high = (end(np.vstack(shown), axis=0) for end in (np.min, np.max))
-    margin = 0.02 * part.size + ((TALLEST + WORDS) * part.size if limit > 0 and wall_is_near(part, low, high) else 0)
-    low, high = low - margin, high + margin
-    across = PAGE_WIDTH - LEFT - RIGHT
-    height = min(across * (high - low)[1] / (high - low)[0], HIGHEST)
-    width = height * (high - low)[0] / (high - low)[1]
+    shown = np.vstack([corners, corners + (times or 0) * np.nan_to_num(part.edges[..., 2:4].reshape(-1, 2))])
+    view = np.array([shown.min(axis=0), shown.max(axis=0)])
+    at = np.array([face["pressure_MPa"]["at_mm"] for face in part.answer["faces"]]).reshape(-1, 2)
+    reaches_out = limit > 0 and min((at - view[0]).min(), (view[1] - at).min()) < TALLEST * part.size
+    margin = max(0.02, 2 * WORDS * loads, (TALLEST + WORDS) * reaches_out) * part.size
+    return view + np.array([[-margin], [margin]])
+
+
+def near_view(part: Part) -> np.ndarray | None:
+    """(2, 2) mm: around the contact with the largest pressure, if it is narrow."""
+    closed = [face for face in part.answer["faces"] if face["closed_mm"] > 0]
+    face = max(closed, key=lambda own: own["pressure_MPa"]["value"], default=None)
+    if face is None or face["closed_mm"] > NARROW * part.size:
+        return None
+    half = (0.5 + AROUND) * face["closed_mm"]
+    return np.array(face["pressure_MPa"]["at_mm"]) + np.array([[-half], [half]])
+
+
+def draw(part: Part) -> Figure:
+    times, scale, limit = enlargement(part), scale_of(part), highest_pressure(part)
+    load = float(np.hypot(*np.moveaxis(part.edges[..., 4:6], -1, 0)).max())
+    view, near = whole_view(part, times, load > 0, limit), near_view(part)
+    room = PAGE_WIDTH - LEFT - RIGHT - (0 if near is None else NEAR + LEFT)
+    wide, high = view[1] - view[0]
+    height = min(room * high / wide, HIGHEST)
     words = wrapped([part.shown["assumptions"].split(": ", 1)[-1]], PAGE_WIDTH - 2 * MARGIN, TYPE)
-    top = 0.36 + 0.155 * len(words)
-    figure = Figure(figsize=(PAGE_WIDTH, top + height + BELOW))
+    top = 0.36 + LINE * len(words)
+    figure = Figure(figsize=(PAGE_WIDTH, top + max(height, 0 if near is None else NEAR + 0.3) + BELOW))
     text_at(figure, MARGIN, 0.08, plain("von Mises stress of " + title_of(part)), fontsize=11, weight="bold")
     for k, line in enumerate(words):
-        text_at(figure, MARGIN, 0.3 + 0.155 * k, plain(line), color="0.35")
-    axes = axes_at(figure, LEFT + (across - width) / 2, top, width, height, xlim=(low[0], high[0]),
-                   ylim=(low[1], high[1]))
+        text_at(figure, MARGIN, 0.3 + LINE * k, plain(line), color="0.35")
+
+    def view_at(left: float, below: float, width: float, tall: float, limits: np.ndarray) -> Axes:
+        axes = axes_at(figure, left, below, width, tall, xlim=limits[:, 0], ylim=limits[:, 1])
+        axes.set_xlabel("x, mm", labelpad=1)
+        axes.set_ylabel("y, mm", labelpad=2)
+        draw_stress(axes, part, scale)
+        draw_outline(axes, part)
+        mark_largest(axes, part, limits)
+        if limit > 0:
+            draw_pressures(axes, part, limit, min(part.size, 2 * np.ptp(limits[:, 0])))
+        return axes
+
+    axes = view_at(LEFT + (room - height * wide / high) / 2, top, height * wide / high, height, view)
     axes.spines[:].set_visible(False)
-    axes.set_xlabel("x, mm", labelpad=1)
-    axes.set_ylabel("y, mm", labelpad=2)
-    draw_stress(axes, part, scale)
-    draw_outline(axes, part)
     draw_displaced(axes, part, times)
-    load = draw_loads(axes, part)
-    if limit > 0:
-        draw_pressures(axes, part, limit)
-    mark_largest(axes, part)
+    draw_loads(axes, part, load)
+    if near is not None:
+        axes.add_patch(Rectangle(near[0], *(near[1] - near[0]), fill=False, linewidth=0.8, zorder=8))
+        enlarged = view_at(PAGE_WIDTH - RIGHT - NEAR, top + 0.3, NEAR, NEAR, near)
+        enlarged.set_title("contact, enlarged", pad=3)
     draw_legend(figure, part, times, load, limit > 0)
-    bar_below(figure, ScalarMappable(scale, COLORMAP), 0.64, 0.31, "von Mises stress, MPa" +
-              ("; brightest: this or more" if "unbounded" in part.answer else ""))
+    bar = bar_below(figure, ScalarMappable(scale, COLORMAP), 0.64, 0.31, "von Mises stress, MPa" +
+                    ("; brightest: this or more" if "unbounded" in part.answer else ""))
+    bar.locator = MaxNLocator(5)
     return figure
-
-
-def wall_is_near(part: Part, low: np.ndarray, high: np.ndarray) -> bool:
-    """Some pressure reaches beyond the body."""
-    at = np.array([face["pressure_MPa"]["at_mm"] for face in part.answer["faces"]])
-    return bool(len(at)) and float(min((at - low).min(), (high - at).min())) < TALLEST * part.size
 
 
 def draw_legend(figure: Figure, part: Part, times: float | None, load: float, has_pressure: bool) -> None:

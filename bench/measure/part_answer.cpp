@@ -240,7 +240,8 @@ class PartReader {
       case ContactState::slip:
         break;
     }
-    return Hold::normal;
+    // Where a face slips with friction one of its ends is singular, as where it sticks.
+    return problem_.friction_at(row) > 0 ? Hold::full : Hold::normal;
   }
   Eigen::Vector2d direction(int row, double s) const {
     const BoundaryEdge& edge = mesh_.boundary[row];

@@ -53,10 +53,11 @@ std::string von_mises_csv(const SolvedFields& fields) {
 std::string outline_csv(const Problem& problem, int degree,
                         const std::optional<DisplacementField>& u) {
   const Mesh& mesh = problem.mesh;
+  const MeshPieces pieces = pieces_of(mesh);
   std::map<int, int> triangle_of_edge;
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
     for (const int edge : problem.edges.of_triangle[t]) triangle_of_edge[edge] = t;
-  std::string text = "edge,x_mm,y_mm,ux_mm,uy_mm,tx_MPa,ty_MPa,role\n";
+  std::string text = "edge,piece,x_mm,y_mm,ux_mm,uy_mm,tx_MPa,ty_MPa,role\n";
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
     const Eigen::Vector2d a = mesh.vertices[edge.vertices[0]], b = mesh.vertices[edge.vertices[1]];
@@ -78,8 +79,9 @@ std::string outline_csv(const Problem& problem, int degree,
       Eigen::Vector2d traction(0, 0);
       if (edge.role == BoundaryRole::force && problem.loads.traction_MPa)
         traction = problem.loads.traction_MPa(x, edge_frame(a, b).normal, row);
-      text += fmt::format("{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}\n", row + 1, x.x(), x.y(), moved,
-                          traction.x(), traction.y(), role_of(problem, row));
+      text += fmt::format("{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}\n", row + 1,
+                          pieces.of_vertex[edge.vertices[0]] + 1, x.x(), x.y(), moved, traction.x(),
+                          traction.y(), role_of(problem, row));
     }
   }
   return text;

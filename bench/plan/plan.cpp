@@ -35,7 +35,7 @@ std::optional<ContactSolver> contact_solver(const Case& planned) {
 
 CaseSettings common_settings(const RunSettings& run) {
   CaseSettings asked = run.cases;
-  asked.timed_once = run.study.once;
+  asked.timed_once |= run.study.once;
   asked.condition = run.study.condition;
   asked.intervals = run.study.intervals || asked.fields || !run.adapt.goals.empty();
   asked.error_of_displacements = run.study.points == Study::Points::accuracy;

@@ -28,16 +28,16 @@ def write_part(results: Path, **changes: object) -> None:
             for x, y in (a, (a + b) / 2, b, (a + c) / 2, (b + c) / 2, c):
                 lines.append(f"{(len(lines) - 1) // 6 + 1},{x},{y},{0.8 * x}")
     write(results, "von_mises.csv", lines)
-    lines = ["edge,x_mm,y_mm,ux_mm,uy_mm,tx_MPa,ty_MPa,role"]
+    lines = ["edge,piece,x_mm,y_mm,ux_mm,uy_mm,tx_MPa,ty_MPa,role"]
     for edge, role in enumerate(("contact", "force", "force", "displacement")):
         start, end = CORNERS[edge], CORNERS[(edge + 1) % 4]
         for t in (0, 0.5, 1):
             x, y = (1 - t) * start + t * end
-            lines.append(f"{edge + 1},{x},{y},{0.01 * x},0,{5 * (edge == 1)},0,{role}")
+            lines.append(f"{edge + 1},1,{x},{y},{0.01 * x},0,{5 * (edge == 1)},0,{role}")
     write(results, "outline.csv", lines)
     write(results, "faces.csv", ["face,along_mm,x_mm,y_mm,pressure_MPa,shear_MPa,gap_mm,slip_mm,state"] +
           [f"contact:sole,{x},{x},0,{0.75 * x},0,0,0,stick" for x in (0, 2.5, 5, 7.5, 10)])
-    face = {"name": "contact:sole", "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
+    face = {"name": "contact:sole", "closed_mm": 10, "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
     answer = {"faces": [face], "supports": [], "von_mises_MPa": {"value": 8, "at_mm": [10, 4]}}
     shown = {"name": "block", "case": "block--HYBRID", "assumptions": "block: plane strain; steel: E 210000 MPa",
              "notes": ["block.inp: not used: *PREPRINT (block.inp:3)"], "largest_pressure_is": "bounded",
