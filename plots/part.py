@@ -112,7 +112,7 @@ def cells_of(points: int) -> np.ndarray:
 
 def scale_of(part: Part) -> Normalize:
     """To the largest stress; where that is not bounded, to what most of the body has."""
-    if "unbounded" not in part.answer:
+    if "unbounded" not in part.answer["von_mises_MPa"]:
         return Normalize(0, part.answer["von_mises_MPa"]["value"] or 1)
     a, b, c = (part.thirds[:, k, :2] for k in (0, round(np.sqrt(2 * part.thirds.shape[1] + 0.25) - 1.5), -1))
     area = np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
@@ -235,7 +235,8 @@ def draw_loads(axes: Axes, part: Part, largest: float) -> None:
 
 
 def mark_largest(axes: Axes, part: Part, view: np.ndarray) -> None:
-    unbounded, stress = part.answer.get("unbounded"), part.answer["von_mises_MPa"]
+    stress = part.answer["von_mises_MPa"]
+    unbounded = stress.get("unbounded")
     at = np.array((unbounded or stress)["at_mm"])
     if not stress["value"] > 0 or (at < view[0]).any() or (at > view[1]).any():
         return
@@ -323,7 +324,7 @@ def draw(part: Part) -> Figure:
         enlarged.set_title("contact, enlarged", pad=3)
     draw_legend(figure, part, times, load, limit > 0)
     bar = bar_below(figure, ScalarMappable(scale, COLORMAP), 0.64, 0.31, "von Mises stress, MPa" +
-                    ("; brightest: this or more" if "unbounded" in part.answer else ""))
+                    ("; brightest: this or more" if "unbounded" in part.answer["von_mises_MPa"] else ""))
     bar.locator = MaxNLocator(5)
     return figure
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "assembly/elements/edge_forces.hpp"
 #include "bench/measure/stress_samples.hpp"
@@ -45,16 +46,13 @@ class PartReader {
     answer.faces = faces();
     answer.supports = supports();
     if (w) answer.displacement_mm = largest_displacement(with_rigid_motion(problem_, *w));
-    answer.stress = largest_stress(stress_);
-    answer.stress.unbounded =
-        singular_place_near(answer.stress.von_mises_MPa.at_mm, answer.stress.triangle);
+    std::tie(answer.von_mises, answer.principal) = largest_stresses(stress_);
+    for (LargestStress* largest : {&answer.von_mises, &answer.principal})
+      largest->unbounded = singular_place_near(largest->at_mm, largest->triangle);
     if (w) {
-      const LargestStress other = largest_stress(stress_of_displacement(problem_, *w));
-      const auto off = [](const ValueAt& a, const ValueAt& b) {
-        return 2 * std::abs(a.value - b.value);
-      };
-      answer.stress.von_mises_off_MPa = off(answer.stress.von_mises_MPa, other.von_mises_MPa);
-      answer.stress.principal_off_MPa = off(answer.stress.principal_MPa, other.principal_MPa);
+      const auto [von_mises, principal] = largest_stresses(stress_of_displacement(problem_, *w));
+      answer.von_mises.off_MPa = 2 * std::abs(answer.von_mises.value - von_mises.value);
+      answer.principal.off_MPa = 2 * std::abs(answer.principal.value - principal.value);
     }
     return answer;
   }
@@ -197,26 +195,27 @@ class PartReader {
     return largest;
   }
 
-  LargestStress largest_stress(const StressField& stress) const {
-    LargestStress largest;
-    const auto consider = [&](int t, const Eigen::Vector3d& s, const Eigen::Vector2d& x) {
-      const double poisson =
-          problem_.poisson_zz.empty() ? 0 : problem_.poisson_zz[mesh_.triangle_body[t]];
-      if (const double value = von_mises(s, poisson); value > largest.von_mises_MPa.value) {
-        largest.von_mises_MPa = {value, x};
-        largest.triangle = t;
-      }
-      for (const double value : principal_stresses(s))
-        if (std::abs(value) > std::abs(largest.principal_MPa.value))
-          largest.principal_MPa = {value, x};
+  // Von Mises and principal.
+  std::pair<LargestStress, LargestStress> largest_stresses(const StressField& stress) const {
+    std::pair<LargestStress, LargestStress> both;
+    const auto take = [](LargestStress& largest, double value, const Eigen::Vector2d& x, int t) {
+      if (std::abs(value) > std::abs(largest.value)) largest = {{value, x}, t, {}, {}};
     };
     const StressSamples samples(problem_, stress, 6);
-    for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+      const double poisson =
+          problem_.poisson_zz.empty() ? 0 : problem_.poisson_zz[mesh_.triangle_body[t]];
       for (int k = 0; k < 3; ++k) {
-        const auto [at_mm, of_third] = samples.third(t, k);
-        for (Eigen::Index i = 0; i < at_mm.cols(); ++i) consider(t, of_third.col(i), at_mm.col(i));
+        const StressSamples::Third third = samples.third(t, k);
+        for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i) {
+          const Eigen::Vector3d s = third.stress.col(i);
+          take(both.first, von_mises(s, poisson), third.at_mm.col(i), t);
+          for (const double value : principal_stresses(s))
+            take(both.second, value, third.at_mm.col(i), t);
+        }
       }
-    return largest;
+    }
+    return both;
   }
 
   // How a side is held: not at all, along its normal only, or as a whole.
@@ -303,6 +302,13 @@ Json point(const Eigen::Vector2d& x) { return Json::array({x.x(), x.y()}); }
 Json to_json(const ValueAt& value) {
   return {{"value", value.value}, {"at_mm", point(value.at_mm)}};
 }
+Json to_json(const LargestStress& largest) {
+  Json json = to_json(static_cast<const ValueAt&>(largest));
+  if (largest.off_MPa) json["off"] = *largest.off_MPa;
+  if (const auto& place = largest.unbounded)
+    json["unbounded"] = {{"what", place->what}, {"at_mm", point(place->at_mm)}};
+  return json;
+}
 
 }  // namespace
 
@@ -339,14 +345,8 @@ Json to_json(const PartAnswer& answer) {
   for (const SupportAnswer& support : answer.supports)
     json["supports"].push_back({{"name", support.name}, {"force_N", point(support.force_N)}});
   if (answer.displacement_mm) json["displacement_mm"] = to_json(*answer.displacement_mm);
-  json["von_mises_MPa"] = to_json(answer.stress.von_mises_MPa);
-  json["principal_MPa"] = to_json(answer.stress.principal_MPa);
-  if (answer.stress.von_mises_off_MPa) {
-    json["von_mises_MPa"]["off"] = *answer.stress.von_mises_off_MPa;
-    json["principal_MPa"]["off"] = *answer.stress.principal_off_MPa;
-  }
-  if (const auto& place = answer.stress.unbounded)
-    json["unbounded"] = {{"what", place->what}, {"at_mm", point(place->at_mm)}};
+  json["von_mises_MPa"] = to_json(answer.von_mises);
+  json["principal_MPa"] = to_json(answer.principal);
   return json;
 }
 

@@ -38,20 +38,19 @@ struct SingularPlace {
   std::string what;  // "a re-entrant corner"
 };
 
-struct LargestStress {
-  int triangle = 0;                        // of the largest von Mises stress
-  ValueAt von_mises_MPa, principal_MPa;    // principal: the largest by magnitude, with its sign
+struct LargestStress : ValueAt {  // MPa
+  int triangle = 0;
   std::optional<SingularPlace> unbounded;  // where the largest is found next to such a place
-  // Twice what the largest stress of the displacements differs by: an estimate of what these are
-  // off by.
-  std::optional<double> von_mises_off_MPa, principal_off_MPa;
+  // Twice what the largest stress of the displacements differs by: an estimate of what this is off
+  // by.
+  std::optional<double> off_MPa;
 };
 
 struct PartAnswer {
   std::vector<FaceAnswer> faces;
   std::vector<SupportAnswer> supports;
   std::optional<ValueAt> displacement_mm;
-  LargestStress stress;
+  LargestStress von_mises, principal;  // principal: the largest by magnitude, with its sign
 };
 
 // Of the body; stresses are the method's own.

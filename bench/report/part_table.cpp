@@ -90,18 +90,20 @@ void add_stress_lines(const Json& part, PartReport& report) {
     report.emplace_back(fmt::format("largest displacement {:.5g} mm at {}",
                                     part["displacement_mm"]["value"].get<double>(),
                                     place(part["displacement_mm"]["at_mm"])));
-  if (part.contains("unbounded")) {
-    report.emplace_back(fmt::format("largest stress: unbounded at {}, {}",
-                                    place(part["unbounded"]["at_mm"]),
-                                    part["unbounded"]["what"].get<std::string>()));
-    return;
-  }
   for (const auto& [name, key] :
-       {std::pair("von Mises", "von_mises_MPa"), {"principal", "principal_MPa"}})
-    report.emplace_back(fmt::format(
-        "largest {} stress {:.5g}{} MPa at {}", name, part[key]["value"].get<double>(),
-        part[key].contains("off") ? fmt::format(" ± {:.2g}", part[key]["off"].get<double>()) : "",
-        place(part[key]["at_mm"])));
+       {std::pair("von Mises", "von_mises_MPa"), {"principal", "principal_MPa"}}) {
+    const Json& largest = part[key];
+    std::string text;
+    if (largest.contains("unbounded"))
+      text = fmt::format("unbounded at {}, {}", place(largest["unbounded"]["at_mm"]),
+                         largest["unbounded"]["what"].get<std::string>());
+    else
+      text = fmt::format(
+          "{:.5g}{} MPa at {}", largest["value"].get<double>(),
+          largest.contains("off") ? fmt::format(" ± {:.2g}", largest["off"].get<double>()) : "",
+          place(largest["at_mm"]));
+    report.emplace_back(fmt::format("largest {} stress {}", name, text));
+  }
 }
 
 std::string percent(const std::optional<double>& share) {

@@ -71,7 +71,8 @@ class PartTest(FolderTest):
         self.assertNotIn("this or more", words)
 
     def test_what_is_unbounded_has_no_number(self) -> None:
-        words = self.words(unbounded={"what": "a re-entrant corner", "at_mm": [0, 4]},
+        place = {"what": "a re-entrant corner", "at_mm": [0, 4]}
+        words = self.words(von_mises_MPa={"value": 8, "at_mm": [0, 4], "unbounded": place},
                            largest_pressure_is="unbounded")
         for text in ("unbounded: a re-entrant corner", "brightest: this or more", "\nunbounded\n"):
             self.assertIn(text, words)
