@@ -23,8 +23,8 @@ bool is_named_after_catalogue(const std::string& mesh);
 // argument; notes a failure.
 void draw_figures(const std::filesystem::path& out, const std::string& options = "");
 
-// Draws the figures, if there are any. Then prints which picture of the last mesh outside the catalogue to open, or how to get
-// one. has_fields: the run has written fields.
+// Draws the figures, if there are any. Then prints which picture of the last mesh outside the
+// catalogue to open, or how to get one. has_fields: the run has written fields.
 void end_run(const RunResult& result, const std::filesystem::path& out, bool has_fields);
 
 }  // namespace airybench

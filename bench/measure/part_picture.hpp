@@ -2,7 +2,8 @@
 //
 //   NAME.von_mises.csv  third (of a triangle, from 1), x_mm, y_mm, von_mises_MPa: the points of
 //                       stress_samples.hpp, as many for each third
-//   NAME.outline.csv    edge (of the boundary, from 1), piece (of the mesh, from 1), x_mm, y_mm, ux_mm, uy_mm, tx_MPa, ty_MPa (a
+//   NAME.outline.csv    edge (of the boundary, from 1), piece (of the mesh, from 1), x_mm, y_mm,
+//   ux_mm, uy_mm, tx_MPa, ty_MPa (a
 //                       given traction), role, or rollers; as many points for each edge
 #pragma once
 

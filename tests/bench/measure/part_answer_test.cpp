@@ -99,7 +99,8 @@ TEST(PartTable, SaysWhatIsNotKnown) {
   Record record;
   record.status = Status::ok;
   record.no_discretisation_error = "a step has no answer";
-  EXPECT_EQ(text_of(part_report(record, {})), "its total error is not known: a step has no answer\n");
+  EXPECT_EQ(text_of(part_report(record, {})),
+            "its total error is not known: a step has no answer\n");
 }
 
 }  // namespace
