@@ -100,7 +100,7 @@ int flic_level_of_equal_memory(Evidence& evidence, const std::string& mesh,
                   family, level, nearest / dtic->bytes));
   if (distance(nearest) > std::log(same_memory))
     evidence.part(
-        Verdict::undecided,
+        ClaimVerdict::undecided,
         fmt::format("{}: no FLIC has DTIC3's memory within a factor {}", family, same_memory));
   return level;
 }
@@ -144,7 +144,7 @@ void best_omega_is_near_one(Evidence& evidence, const std::string& family,
                             const std::map<double, CaseTime>& times, double best) {
   if (std::ranges::none_of(times, is_near_one, &std::pair<const double, CaseTime>::first) ||
       times.begin()->first >= 1 - omega_radius || times.rbegin()->first <= 1 + omega_radius) {
-    evidence.part(Verdict::undecided,
+    evidence.part(ClaimVerdict::undecided,
                   fmt::format("{}: SSOR needs an ω below {}, one above {} and one between", family,
                               1 - omega_radius, 1 + omega_radius));
     return;
@@ -153,14 +153,14 @@ void best_omega_is_near_one(Evidence& evidence, const std::string& family,
   std::vector<std::string> candidates;
   for (const auto& [omega, time] : times)
     if (omega == best ||
-        is_within(ratio_of(time, times.at(best)).interval, longer) != Verdict::reproduced) {
+        is_within(ratio_of(time, times.at(best)).interval, longer) != ClaimVerdict::reproduced) {
       (is_near_one(omega) ? near : far) = true;
       candidates.push_back(fmt::format("{}", omega));
     }
   evidence.figure(fmt::format("{}: best ω: {}", family, joined(candidates, " or ")));
-  evidence.part(
-      near && far ? Verdict::undecided : (near ? Verdict::reproduced : Verdict::not_reproduced),
-      fmt::format("{}: the best ω may be near 1 or not", family));
+  evidence.part(near && far ? ClaimVerdict::undecided
+                            : (near ? ClaimVerdict::reproduced : ClaimVerdict::not_reproduced),
+                fmt::format("{}: the best ω may be near 1 or not", family));
 }
 
 void ssor_is_best_near_1_and_slow(Evidence& evidence) {
@@ -236,7 +236,7 @@ void alm_needs_the_least_memory(Evidence& evidence) {
     to_least.push_back({ratio, {ratio, ratio}});
     evidence.figure(fmt::format("{}: ALM {}, {}, least but ALM {} {}", mesh, alm->text, direct,
                                 least_method, least->text));
-    evidence.part(ratio < 1 ? Verdict::reproduced : Verdict::not_reproduced, "");
+    evidence.part(ratio < 1 ? ClaimVerdict::reproduced : ClaimVerdict::not_reproduced, "");
   }
   if (!to_least.empty())
     evidence.interval("ALM/least of the others " + show_ratio(spread(to_least)));
@@ -284,14 +284,15 @@ void gauss_seidel_takes_under_1_percent(Evidence& evidence) {
     evidence.figure(fmt::format("{} cases by active sets, not by Gauss–Seidel", by_others));
   if (cases == 0) {
     if (by_others > 0)
-      evidence.part(Verdict::undecided, "no case by Gauss–Seidel, which --stop=paper takes");
+      evidence.part(ClaimVerdict::undecided, "no case by Gauss–Seidel, which --stop=paper takes");
     return;
   }
   evidence.figure("largest share: " + joined(largest_shares));
   evidence.figure(
       fmt::format("under 1 % in {} of {} cases; {} without a time", below, cases, without_time));
   evidence.interval(fmt::format("share [{:.2g} %, {:.2g} %]", 100 * range.low, 100 * range.high));
-  evidence.part(range.high < contact_share ? Verdict::reproduced : Verdict::not_reproduced, "");
+  evidence.part(
+      range.high < contact_share ? ClaimVerdict::reproduced : ClaimVerdict::not_reproduced, "");
 }
 
 void blind_condensation_is_too_expensive(Evidence& evidence) {

@@ -18,10 +18,10 @@
 
 namespace airybench {
 
-enum class Verdict { not_reproduced, undecided, reproduced };  // the least of several decides
-std::string_view name_of(Verdict verdict);
+enum class ClaimVerdict { not_reproduced, undecided, reproduced };  // the least of several decides
+std::string_view name_of(ClaimVerdict verdict);
 // Is the quantity in (low, high]? Undecided if a bound of the range is inside its interval.
-Verdict is_within(const Interval& quantity, const Interval& range);
+ClaimVerdict is_within(const Interval& quantity, const Interval& range);
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A timeout has no samples: its time is above at_least_s, figure_s is an estimate.
@@ -90,7 +90,7 @@ struct Claim {
   std::string sentence;                // with the paper's section
   std::vector<std::string> figures;    // measured; ~: extrapolated
   std::vector<std::string> intervals;  // of the ratios that decide
-  Verdict verdict = Verdict::undecided;
+  ClaimVerdict verdict = ClaimVerdict::undecided;
   std::vector<std::string> open;  // missing, unusable or undecided
 };
 
@@ -108,7 +108,7 @@ class Evidence {
   void figure(std::string text) { claim_.figures.push_back(std::move(text)); }
   void interval(std::string text) { claim_.intervals.push_back(std::move(text)); }
   // Adds one condition of the claim; undecided needs a reason.
-  void part(Verdict verdict, const std::string& if_undecided);
+  void part(ClaimVerdict verdict, const std::string& if_undecided);
   // Adds the condition that a ratio is in (low, high]; shows its interval.
   void part(const std::string& label, const Ratio& ratio, const Interval& range);
   // Shows a ratio per mesh, with geometric mean and range. Tests these if a range is given and no
@@ -125,7 +125,7 @@ class Evidence {
  private:
   const CaseTable& cases_;
   Claim claim_;
-  std::vector<Verdict> parts_;
+  std::vector<ClaimVerdict> parts_;
   std::map<std::string, std::vector<std::pair<std::string, std::vector<std::string>>>> missing_;
 };
 

@@ -42,15 +42,15 @@ std::string show_figure(const Ratio& ratio) {
 
 }  // namespace
 
-std::string_view name_of(Verdict verdict) {
+std::string_view name_of(ClaimVerdict verdict) {
   constexpr std::array<std::string_view, 3> names = {"not reproduced", "undecided", "reproduced"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
-Verdict is_within(const Interval& quantity, const Interval& range) {
-  if (quantity.high <= range.low || quantity.low > range.high) return Verdict::not_reproduced;
-  return quantity.low > range.low && quantity.high <= range.high ? Verdict::reproduced
-                                                                 : Verdict::undecided;
+ClaimVerdict is_within(const Interval& quantity, const Interval& range) {
+  if (quantity.high <= range.low || quantity.low > range.high) return ClaimVerdict::not_reproduced;
+  return quantity.low > range.low && quantity.high <= range.high ? ClaimVerdict::reproduced
+                                                                 : ClaimVerdict::undecided;
 }
 
 Ratio ratio_of(const CaseTime& numerator, const CaseTime& denominator) {
@@ -191,10 +191,10 @@ std::optional<CaseBytes> Evidence::bytes(const std::string& mesh, const std::str
   return {};
 }
 
-void Evidence::part(Verdict verdict, const std::string& if_undecided) {
+void Evidence::part(ClaimVerdict verdict, const std::string& if_undecided) {
   parts_.push_back(verdict);
   auto& open = claim_.open;
-  if (verdict == Verdict::undecided && std::ranges::find(open, if_undecided) == open.end())
+  if (verdict == ClaimVerdict::undecided && std::ranges::find(open, if_undecided) == open.end())
     open.push_back(if_undecided);
 }
 
@@ -204,7 +204,7 @@ void Evidence::part(const std::string& label, const Ratio& ratio, const Interval
 }
 
 void Evidence::missing(const std::string& mesh, const std::string& method, const std::string& why) {
-  parts_.push_back(Verdict::undecided);
+  parts_.push_back(ClaimVerdict::undecided);
   auto& methods = missing_[why];
   auto same = std::ranges::find(methods, method, [](const auto& entry) { return entry.first; });
   if (same == methods.end()) same = methods.insert(same, {method, {}});
@@ -251,7 +251,7 @@ void Evidence::times_over_meshes(const std::string& numerator, const std::string
 Claim Evidence::claim(const std::string& sentence) const {
   Claim claim = claim_;
   claim.sentence = sentence;
-  claim.verdict = parts_.empty() ? Verdict::undecided : std::ranges::min(parts_);
+  claim.verdict = parts_.empty() ? ClaimVerdict::undecided : std::ranges::min(parts_);
   if (parts_.empty()) claim.open.push_back("no records");
   for (const auto& [why, methods] : missing_) {
     std::vector<std::string> which;

@@ -208,7 +208,7 @@ TEST(Bootstrap, CoversTheMedian) {
 }
 
 TEST(Verdicts, AnIntervalThatStraddlesTheThresholdDecidesNothing) {
-  using enum Verdict;
+  using enum ClaimVerdict;
   const Interval above_one = {1, infinity}, within_a_factor = {1 / 1.5, 1.5};
   EXPECT_EQ(is_within({1.1, 1.3}, above_one), reproduced);
   EXPECT_EQ(is_within({0.9, 1.3}, above_one), undecided);
