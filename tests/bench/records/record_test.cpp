@@ -180,13 +180,22 @@ TEST(Record, OfACommittedRunNamesNoFolderOfTheMachine) {
   }
 }
 
+// The unit where the name does not end in it, and the questions that the fields answer.
 std::string rows_of(bool columns) {
-  std::string text = "| key | unit | meaning |\n|---|---|---|\n";
-  for (const Field& field : record_fields())
-    if (((field.use & column) != 0) == columns) {
-      text += "| `" + std::string(field.name) + "` | " + field.unit + " | ";
-      text += std::string(field.meaning) + " |\n";
-    }
+  std::string text = "| key | meaning |\n|---|---|\n", question;
+  const auto add = [&](const std::string& name, const std::string& unit, unsigned use,
+                       const char* meaning) {
+    if (((use & column) != 0) != columns) return;
+    if (!question.empty()) text += "| **" + question + "** | |\n";
+    question.clear();
+    std::string ending = unit;
+    std::erase(ending, ' ');
+    const bool is_in_name = unit.empty() || unit == "1" || name.ends_with("_" + ending);
+    text += "| `" + name + "`" + (is_in_name ? "" : " (" + unit + ")") + " | " + meaning + " |\n";
+  };
+#define QUESTION(words) question = words;
+#define FIELD(kind, name, unit, use, source, label, meaning) add(#name, unit, use, meaning);
+#include "bench/records/record_fields.def"
   return text;
 }
 
