@@ -21,7 +21,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, TriMesh
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -120,12 +120,15 @@ def scale_of(part: Part) -> Normalize:
                                     0.995, 1.6) or 1)
 
 
-def draw_stress(axes: Axes, part: Part, scale: Normalize) -> None:
-    count, points = part.thirds.shape[:2]
+def draw_stress(axes: Axes, part: Part, scale: Normalize, view: np.ndarray) -> None:
+    corners = part.thirds[..., :2]
+    thirds = part.thirds[((corners.max(1) > view[0]) & (corners.min(1) < view[1])).all(1)]
+    count, points = thirds.shape[:2]
     cells = (np.arange(count)[:, None, None] * points + cells_of(points)).reshape(-1, 3)
-    x, y, stress = part.thirds.reshape(-1, 3).T
-    axes.tripcolor(Triangulation(x, y, cells), stress, shading="gouraud", cmap=COLORMAP, norm=scale,
-                   rasterized=True)
+    x, y, stress = thirds.reshape(-1, 3).T
+    mesh = TriMesh(Triangulation(x, y, cells), cmap=COLORMAP, norm=scale, rasterized=True)
+    mesh.set_array(stress)
+    axes.add_collection(mesh, autolim=False)  # its limits would take longer than the rest of the picture
 
 
 def lines_of(part: Part, chosen: np.ndarray, points: np.ndarray) -> list[np.ndarray]:
@@ -248,8 +251,9 @@ def mark_largest(axes: Axes, part: Part, view: np.ndarray) -> None:
         if np.hypot(*(away := at - face["pressure_MPa"]["at_mm"])) < TALLEST * np.ptp(view[:, 0]):
             up = 0 if away[1] >= 0 and at[1] != view[0, 1] else 1
     words = f"unbounded: {unbounded['what']}" if unbounded else f"largest {stress['value']:.4g} MPa"
-    axes.annotate(words, at, xytext=(9 if across < 0.5 else -9, 12 if up < 0.5 else -12),
-                  textcoords="offset points", weight="bold", ha="left" if across < 0.5 else "right",
+    side = 0 if abs(across - 0.5) < 0.1 else 1 if across < 0.5 else -1  # of the words
+    axes.annotate(words, at, xytext=(9 * side, 12 if up < 0.5 else -12), textcoords="offset points",
+                  weight="bold", ha=("center", "left", "right")[side],
                   va="bottom" if up < 0.5 else "top", **NOTE)
 
 
@@ -307,7 +311,7 @@ def draw(part: Part) -> Figure:
         axes = axes_at(figure, left, below, width, tall, xlim=limits[:, 0], ylim=limits[:, 1])
         axes.set_xlabel("x, mm", labelpad=1)
         axes.set_ylabel("y, mm", labelpad=2)
-        draw_stress(axes, part, scale)
+        draw_stress(axes, part, scale, limits)
         draw_outline(axes, part)
         mark_largest(axes, part, limits)
         if limit > 0:
