@@ -250,12 +250,14 @@ bool is_named_after_catalogue(const std::string& mesh) {
   return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }
 
-void draw_figures(const fs::path& out, const std::string& options) {
+bool draw_figures(const fs::path& out, const std::string& options) {
   std::fflush(stdout);
   const char* const then = std::getenv("AIRYBENCH_THEN");
-  if (then != nullptr && *then != '\0' &&
-      std::system(fmt::format("{} {} {}", then, options, file_operand(out.string())).c_str()) != 0)
-    std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
+  if (then == nullptr || *then == '\0') return false;
+  if (std::system(fmt::format("{} {} {}", then, options, file_operand(out.string())).c_str()) == 0)
+    return true;
+  std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
+  return false;
 }
 
 void end_run(const RunResult& result, const fs::path& out, bool has_fields) {

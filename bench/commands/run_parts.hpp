@@ -20,8 +20,8 @@ PosedScene one_posed_scene(const Options& options);  // throws UsageError unless
 bool is_named_after_catalogue(const std::string& mesh);
 
 // Runs the shell command $AIRYBENCH_THEN with these options and the results folder as its last
-// argument; notes a failure.
-void draw_figures(const std::filesystem::path& out, const std::string& options = "");
+// argument; notes a failure. False where there is no such command, or it fails.
+bool draw_figures(const std::filesystem::path& out, const std::string& options = "");
 
 // Draws the figures, if there are any. Then prints which picture of the last mesh outside the
 // catalogue to open, or how to get one. has_fields: the run has written fields.

@@ -20,6 +20,7 @@
 #include "mesh/model_format.hpp"
 #include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
+#include "support/called_as.hpp"
 #include "support/file_text.hpp"
 #include "support/shortened.hpp"
 #include "support/this_process.hpp"
@@ -234,7 +235,10 @@ int solve_command(int argc, const char* const* argv) {
                         {"report", to_json(report)}};
     // After the records: where these are newer, a later run has written them.
     write_file_atomically(options.output.folder / "part.json", json_text(shown));
-    draw_figures(options.output.folder, html ? "--html" : "");
+    const std::string drawn_with = html ? "--html" : "";
+    if (!draw_figures(options.output.folder, drawn_with))
+      fmt::print("a picture: {} figures {} {}\n", called_as("run"),
+                 shell_word(options.output.folder.string()), drawn_with);
   }
   return is_met ? all_ok : some_case_failed;
 }

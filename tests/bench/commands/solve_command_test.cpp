@@ -138,7 +138,7 @@ const std::vector<Known>& known() {
       {"press_fit", "/faces/0/pressure_MPa/value", press_fit_MPa(), 0.01},
       {"press_fit", "/faces/0/slipping_mm", 0, 1e-9},
       {"roller_on_plate", "/faces/0/pressure_MPa/value", roller_MPa(), 0.02},
-      {"roller_on_plate", "/faces/0/closed_mm", 2 * roller_mm(), 0.1},
+      {"roller_on_plate", "/faces/0/closed_mm", 2 * roller_mm(), 0.01},
       {"roller_on_plate", "/supports/0/force_N/1", roller_N, 1e-6},
       {"slope", "/faces/0/normal_N", -block_N * std::cos(slope), 1e-6},
       {"slope", "/faces/0/force_N/0", 0, 1e-6},
@@ -180,6 +180,20 @@ TEST_F(SolveCommand, InstancesPressOnEachOther) {
   const Json r = bench_.records().front();
   EXPECT_LE(r["normal_resultant_high_N"].get<double>() - r["normal_resultant_low_N"].get<double>(),
             0.02 * std::abs(force));
+}
+
+TEST_F(SolveCommand, ItsPictureAndPageAreMadeOfWhatIsPrinted) {
+  const testing::CommandResult ran = bench_.run(
+      "solve " + deck("plate_tension") + " --html --out=o", "export AIRYBENCH_THEN='echo drawn'; ");
+  EXPECT_NE(ran.out.find("drawn --html o\n"), std::string::npos) << ran.out << ran.err;
+  const Json part = parse_json(bench_.content("o/part.json"));
+  EXPECT_EQ(part["name"], "plate_tension");
+  EXPECT_NE(part["notes"][0].get<std::string>().find("not used: *"), std::string::npos);
+  for (const Json& line : part["report"])
+    if (line.is_string()) EXPECT_NE(ran.out.find(line.get<std::string>()), std::string::npos);
+  const std::string fields = "o/fields/" + part["case"].get<std::string>();
+  EXPECT_TRUE(bench_.content(fields + ".von_mises.csv").starts_with("third,x_mm,"));
+  EXPECT_TRUE(bench_.content(fields + ".outline.csv").starts_with("edge,piece,x_mm,"));
 }
 
 TEST_F(SolveCommand, WhatCannotBeSolvedIsSaid) {

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "bench/measure/part_answer.hpp"
+#include "bench/measure/part_picture.hpp"
 #include "bench/report/part_table.hpp"
 #include "support/lists.hpp"
 #include "tests/bench/verify/solved.hpp"
@@ -62,6 +64,36 @@ TEST_P(OfTooth, TheLargestValuesAreThoseOfTheFields) {
   EXPECT_LT(answer_.von_mises.value, largest * (GetParam() > 1 ? 1.2 : 1 + 1e-9));
   ASSERT_TRUE(answer_.displacement_mm);
   EXPECT_GE(answer_.displacement_mm->value, Scene().displacement_mm.norm() * (1 - 1e-9));
+}
+
+// At fewer points of the same lattices.
+TEST_P(OfTooth, ThePictureHasTheLargestStress) {
+  std::istringstream lines(von_mises_csv(fields_));
+  std::string line;
+  std::getline(lines, line);
+  double largest = 0;
+  while (std::getline(lines, line)) largest = std::max(largest, std::stod(split_list(line).at(3)));
+  EXPECT_NEAR(largest, answer_.von_mises.value, 0.05 * largest);
+}
+
+// Nine points of each, with what is prescribed there.
+TEST_P(OfTooth, TheOutlineHasEveryEdge) {
+  const Problem& problem = *solved_.system.problem;
+  const DisplacementField u = with_rigid_motion(problem, *solved_.w);
+  std::istringstream lines(outline_csv(problem, GetParam(), u));
+  std::string line;
+  std::getline(lines, line);
+  const Eigen::Vector2d held = Scene().displacement_mm;
+  std::map<std::string, int> points;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = split_list(line);
+    ++points[cells.at(0)];
+    if (cells.at(8) != "displacement") continue;
+    EXPECT_NEAR(std::stod(cells[4]), held.x(), 1e-9);
+    EXPECT_NEAR(std::stod(cells[5]), held.y(), 1e-9);
+  }
+  EXPECT_EQ(points.size(), problem.mesh.boundary.size());
+  for (const auto& [edge, count] : points) EXPECT_EQ(count, 9) << edge;
 }
 
 // The pressures of the file, integrated by Simpson's rule over each half edge.
