@@ -152,11 +152,12 @@ const std::vector<Known>& known() {
 TEST_P(SolvedPart, HasWhatIsKnownOfIt) {
   const std::string file = (testing::source_folder() / "docs/bodies" / GetParam()).string();
   const Json answer = solved(fmt::format("{0}.geo {0}.json", file));
-  for (const Known& one : known())
-    if (one.part == std::string(GetParam()))
-      EXPECT_NEAR(answer.at(Json::json_pointer(one.quantity)).get<double>(), one.value,
-                  one.within * std::max(1., std::abs(one.value)))
-          << one.quantity;
+  for (const Known& one : known()) {
+    if (one.part != std::string(GetParam())) continue;
+    EXPECT_NEAR(answer.at(Json::json_pointer(one.quantity)).get<double>(), one.value,
+                one.within * std::max(1., std::abs(one.value)))
+        << one.quantity;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SolvedPart,
@@ -190,7 +191,8 @@ TEST_F(SolveCommand, ItsPictureAndPageAreMadeOfWhatIsPrinted) {
   EXPECT_EQ(part["name"], "plate_tension");
   EXPECT_NE(part["notes"][0].get<std::string>().find("not used: *"), std::string::npos);
   for (const Json& line : part["report"])
-    if (line.is_string()) EXPECT_NE(ran.out.find(line.get<std::string>()), std::string::npos);
+    EXPECT_TRUE(line.is_array() || ran.out.find(line.get<std::string>()) != std::string::npos)
+        << line;
   const std::string fields = "o/fields/" + part["case"].get<std::string>();
   EXPECT_TRUE(bench_.content(fields + ".von_mises.csv").starts_with("third,x_mm,"));
   EXPECT_TRUE(bench_.content(fields + ".outline.csv").starts_with("edge,piece,x_mm,"));

@@ -79,7 +79,7 @@ TEST_P(OfTooth, ThePictureHasTheLargestStress) {
 // Nine points of each, with what is prescribed there.
 TEST_P(OfTooth, TheOutlineHasEveryEdge) {
   const Problem& problem = *solved_.system.problem;
-  const DisplacementField u = with_rigid_motion(problem, *solved_.w);
+  const DisplacementField u = with_rigid_motion(problem, solved_.w);
   std::istringstream lines(outline_csv(problem, GetParam(), u));
   std::string line;
   std::getline(lines, line);
