@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/messages.hpp"
+
 namespace airybench {
 
 std::string show_seconds(std::optional<double> seconds) {
@@ -31,8 +33,11 @@ std::string show_duration(double seconds) {
   return fmt::format("{} s", whole);
 }
 
-std::string aligned_table(const std::vector<std::vector<std::string>>& rows,
+std::string aligned_table(const std::vector<std::vector<std::string>>& given,
                           std::size_t first_number) {
+  std::vector<std::vector<std::string>> rows = given;
+  for (auto& row : rows)  // as wide as they are shown
+    for (std::string& cell : row) cell = escaped(cell);
   // Counts characters, not bytes: "±" and "µ" have two.
   const auto length = [](const std::string& text) {
     return static_cast<std::size_t>(
