@@ -19,12 +19,13 @@ constexpr auto formats = std::to_array<std::pair<std::string_view, ModelFormat>>
     {".iges", ModelFormat::cad},
     {".igs", ModelFormat::cad},
     {".unv", ModelFormat::mesh},
-    {".med", ModelFormat::mesh},
+    {".med", ModelFormat::med},
     {".vtk", ModelFormat::mesh},
     {".bdf", ModelFormat::mesh},
     {".mesh", ModelFormat::mesh},
     {".inp", ModelFormat::abaqus},
     {".stl", ModelFormat::outline},
+    {".obj", ModelFormat::obj},
 });
 
 std::string extension_of(const std::filesystem::path& file) {

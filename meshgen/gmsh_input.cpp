@@ -11,6 +11,8 @@
 #include "mesh/model_format.hpp"
 #include "meshgen/announced_counts.hpp"
 #include "meshgen/deck_scene.hpp"
+#include "meshgen/foreign_mesh.hpp"
+#include "meshgen/med_mesh.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
@@ -132,8 +134,16 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
     file_ = folder_.path() / model.stem();
     write_file_atomically(file_, unpacked_text(model));
   }
+#ifdef AIRYBENCH_HAS_HDF5
+  if (format == ModelFormat::med) {
+    const std::string mesh = msh_of_med(file_);
+    file_ = folder_.path() / (model_name(model) + ".msh");
+    write_file_atomically(file_, mesh);
+    return;
+  }
+#endif
   const std::string text = file_text(file_);
-  if (format == ModelFormat::cad) {
+  if (format == ModelFormat::cad || format == ModelFormat::med) {
     if (text.find("CASCADE Topology") < 4096) check_brep(text);
     return;
   }
@@ -155,6 +165,10 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
   } else if (format == ModelFormat::abaqus) {
     const Deck deck = read_deck(tidied(text, true), folder_of(model));
     give(mesh_name, msh_of(deck, curves_of(deck)));
+  } else if (format == ModelFormat::obj) {
+    give(mesh_name, msh_of_obj(text));
+  } else if (format == ModelFormat::msh && is_of_freefem(text)) {
+    give(mesh_name, msh_of_freefem(text));
   } else if (format == ModelFormat::mesh || format == ModelFormat::outline) {
     const bool is_outline = format == ModelFormat::outline;
     refuse_counts_beyond(text, is_outline);

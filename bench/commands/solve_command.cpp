@@ -30,7 +30,8 @@ namespace {
 
 constexpr const char* solve_footer = R"(
 MODEL is a mesh or a Gmsh model; an input deck (.inp) brings its own scene. The mesh is adapted until the total error, relative in
-energy, is met; with :force or :pressure until the interval of Σ F_n or of the largest pressure is as narrow, ± relative.
+energy, is met; with :force or :pressure until the interval of F_n or of the largest pressure is as narrow, ± relative, of all
+faces together and of each that carries more than 1 % of the load.
 In OUT: the picture figures/part.png, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), meshes and
 records; with --html all that is printed and the picture in part.html, one page that stands alone.
 
@@ -140,31 +141,63 @@ class KeptNotes : std::streambuf {
   std::string printed_;
 };
 
-// Half the interval's width over its value; none: it is not known.
-std::optional<double> reached(const Record& record, Quantity of) {
-  const auto half_width = [](const auto& low, const auto& high, const auto& value) {
-    return low && high && value && *value != 0
-               ? std::optional((*high - *low) / 2 / std::abs(*value))
-               : std::nullopt;
-  };
-  switch (of) {
-    case Quantity::energy:
-      return record.error_total;
-    case Quantity::force:
-      return half_width(record.normal_resultant_low_N, record.normal_resultant_high_N,
-                        record.normal_resultant_N);
-    case Quantity::pressure:
-      return half_width(record.largest_pressure_low_MPa, record.largest_pressure_high_MPa,
-                        record.largest_pressure_MPa);
-  }
-  return {};
-}
-
 struct Solved {
   Record record;
   RunResult result;
   std::string short_of;
+  std::filesystem::path fields;  // without extensions
+  Json part;                     // its answer; null: there is none
 };
+
+// The error that a quantity has now; none: it is not known. of: "contact:sole"; empty: all faces.
+struct Reached {
+  std::optional<double> error;
+  std::string of = {};
+};
+
+// Half the interval's width over the value.
+std::optional<double> half_width(const std::optional<double>& low,
+                                 const std::optional<double>& high,
+                                 const std::optional<double>& value) {
+  if (!low || !high || !value || *value == 0) return {};
+  return (*high - *low) / 2 / std::abs(*value);
+}
+std::optional<double> half_width(const Json& of, const char* interval, double value) {
+  if (!of.contains(interval)) return {};
+  return half_width(of[interval][0].get<double>(), of[interval][1].get<double>(), value);
+}
+
+// The worst of all faces together and of each that carries a share of the load.
+Reached reached(const Solved& solved, Quantity of) {
+  constexpr double least_share = 0.01;
+  const Record& r = solved.record;
+  if (of == Quantity::energy) return {r.error_total};
+  const bool is_force = of == Quantity::force;
+  Reached worst{is_force ? half_width(r.normal_resultant_low_N, r.normal_resultant_high_N,
+                                      r.normal_resultant_N)
+                         : half_width(r.largest_pressure_low_MPa, r.largest_pressure_high_MPa,
+                                      r.largest_pressure_MPa)};
+  if (solved.part.is_null()) return worst;
+  double load_N = 0;
+  for (const Json& face : solved.part["faces"]) load_N += std::abs(face["normal_N"].get<double>());
+  for (const Json& face : solved.part["faces"]) {
+    const double force_N = face["normal_N"];
+    const Json& pressure = face["pressure_MPa"];
+    if (std::abs(force_N) <= least_share * load_N) continue;
+    const Reached own{is_force ? half_width(face, "normal_in_N", force_N)
+                               : half_width(pressure, "in", pressure["value"].get<double>()),
+                      face["name"]};
+    if (!own.error) return own;
+    if (!worst.error || *own.error > *worst.error) worst = own;
+  }
+  return worst;
+}
+
+std::string text_of(const Reached& reached) {
+  const std::string of = reached.of.empty() ? "" : " of " + reached.of;
+  if (!reached.error) return fmt::format("this quantity{} has no interval", of);
+  return fmt::format("{:.3g} %{}", 100 * *reached.error, of);
+}
 
 std::optional<Solved> solved_to(const PosedScene& start, const Options& options) {
   const AdaptedScenes adapted = adapted_scenes(start, options);
@@ -175,7 +208,14 @@ std::optional<Solved> solved_to(const PosedScene& start, const Options& options)
   RunResult result = run_cases(plan, options.limits, options.output, context_of_run(options));
   if (result.names.empty()) return {};
   Record record = result.record(0);
-  return Solved{std::move(record), std::move(result), adapted.why_not_reached};
+  const std::filesystem::path fields = options.output.folder / "fields" / name_of(record).file(),
+                              of_part = fields.string() + ".answer.json";
+  std::error_code error;
+  Json part;
+  if (std::filesystem::exists(of_part, error))
+    part = json_of_file(of_part.string(), file_text(of_part));
+  return Solved{std::move(record), std::move(result), adapted.why_not_reached, fields,
+                std::move(part)};
 }
 
 // The energy's error that the quantity's needs is found as the loop goes.
@@ -186,7 +226,7 @@ std::optional<Solved> solved(const PosedScene& start, Options options, const Goa
   for (int round = 0; round < most_rounds; ++round) {
     answer = solved_to(start, options);
     if (!answer || !answer->short_of.empty()) return answer;
-    const std::optional<double> width = reached(answer->record, goal.of);
+    const std::optional<double> width = reached(*answer, goal.of).error;
     if (!width || *width <= goal.error) return answer;
     double& error = *options.run.adapt.goals.front().error;
     error *= std::max(smallest_step, margin * std::min(goal.error / *width, 1.));
@@ -209,25 +249,18 @@ int solve_command(int argc, const char* const* argv) {
   const std::optional<Solved> answer = solved(start, options, goal);
   if (!answer) return some_case_failed;
   const Record& record = answer->record;
-  const std::filesystem::path fields = options.output.folder / "fields" / name_of(record).file();
-  std::error_code error;
-  const std::filesystem::path of_part = fields.string() + ".answer.json";
-  const Json part = std::filesystem::exists(of_part, error)
-                        ? json_of_file(of_part.string(), file_text(of_part))
-                        : Json();
   const std::string assumptions = assumptions_of(*start.body());
-  PartReport report = part_report(record, part);
-  const std::optional<double> width = reached(record, goal.of);
-  const bool is_met = width && *width <= goal.error && record.status == Status::ok;
+  PartReport report = part_report(record, answer->part);
+  const Reached now = reached(*answer, goal.of);
+  const bool is_met = now.error && *now.error <= goal.error && record.status == Status::ok;
   if (!is_met && record.status == Status::ok)
-    report.emplace_back(fmt::format(
-        "note: the error asked for, {:g} %, is not met: {}", 100 * goal.error,
-        width ? fmt::format("{:.3g} %", 100 * *width) : "this quantity has no interval"));
+    report.emplace_back(fmt::format("note: the error asked for, {:g} %, is not met: {}",
+                                    100 * goal.error, text_of(now)));
   fmt::print("\n{}\n\n{}", assumptions, text_of(report));
-  if (!part.is_null()) {
-    fmt::print("faces: {0}.faces.csv\nParaView: {0}.vtu\n", fields.string());
+  if (!answer->part.is_null()) {
+    fmt::print("faces: {0}.faces.csv\nParaView: {0}.vtu\n", answer->fields.string());
     const Json shown = {{"name", start.body()->mesh.name},
-                        {"case", fields.filename().string()},
+                        {"case", answer->fields.filename().string()},
                         {"assumptions", assumptions},
                         {"notes", said.notes()},
                         {"largest_pressure_is", record.largest_pressure_is},

@@ -11,6 +11,7 @@
 #include "bench/measure/part_picture.hpp"
 #include "bench/measure/vtu.hpp"
 #include "bench/verify/displacement_recovery.hpp"
+#include "mesh/boundary_sides.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "support/atomic_file.hpp"
 
@@ -204,9 +205,7 @@ void take_forces_of_displacements(const DualSystem& system, const Solution& solu
   const std::vector<ContactState> states = contact_states(control.law, solution.F_C);
   std::map<int, ContactState> state_of_node;
   for (int i = 0; i < control.law.count; ++i) state_of_node[control.node[i]] = states[i];
-  std::map<int, std::pair<int, int>> side_of_edge;  // triangle, which of its sides
-  for (int t = 0; t < static_cast<int>(solution.stress.size()); ++t)
-    for (int k = 0; k < 3; ++k) side_of_edge[problem.edges.of_triangle[t][k]] = {t, k};
+  const std::vector<TriangleSide> sides = boundary_sides(problem.edges);
 
   for (int point = 0; point < system.contact.count; ++point) {
     const int row = system.contact.boundary[point], j = point % p;
@@ -214,7 +213,7 @@ void take_forces_of_displacements(const DualSystem& system, const Solution& solu
     const auto found = state_of_node.find(nodes[2 * j < p ? j : j + 1]);
     picture.state.push_back(found != state_of_node.end() ? found->second
                                                          : state_of_node.at(nodes[1]));
-    const auto [t, k] = side_of_edge.at(problem.edges.of_boundary[row]);
+    const auto [t, k] = sides[static_cast<std::size_t>(row)];
     const Eigen::Vector2d force =
         element_edge_forces(problem.vertices_of(t), solution.stress[t], k).col(j);
     picture.force.emplace_back(picture.frame[point].normal.dot(force),
@@ -305,7 +304,7 @@ bool has_own_displacement(const Solution& solution) {
 }
 
 SolvedFields own_fields(const DualSystem& system, const Solution& solution) {
-  SolvedFields fields{system, solution, {}, nullptr, {}};
+  SolvedFields fields{system, solution, {}, nullptr, nullptr, {}};
   if (solution.displacement.cols() > 0)
     fields.w = solution.displacement;
   else if (solution.edge_moments.cols() > 0)

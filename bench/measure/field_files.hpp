@@ -32,6 +32,7 @@
 
 #include "assembly/displacement_field.hpp"
 #include "assembly/dual_system.hpp"
+#include "bench/verify/contact_intervals.hpp"
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/base/solution.hpp"
@@ -62,7 +63,8 @@ struct SolvedFields {
   const Solution& solution;
   // Bernstein coefficients (displacement_field.hpp) without the problem's rigid motion.
   std::optional<DisplacementField> w;
-  const ConstitutiveError* error = nullptr;  // null if unknown
+  const ConstitutiveError* error = nullptr;     // null if unknown
+  const ContactIntervals* intervals = nullptr;  // the same
   std::optional<StressField> mean;
   bool picture = false;  // also the files of part_picture.hpp
 };

@@ -219,6 +219,7 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
     fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
+    if (known->intervals) fields.intervals = &*known->intervals;
     if (common_.mean_fields)
       fields.mean = mean_stress(
           *problem_,

@@ -12,7 +12,7 @@
 #include "bench/measure/stress_samples.hpp"
 #include "bench/records/csv.hpp"
 #include "bench/verify/along_contact.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/boundary_sides.hpp"
 
 namespace airybench {
 namespace {
@@ -28,14 +28,8 @@ class PartReader {
         degree_(stress_.degree()),
         F_C_(fields.solution.F_C),
         states_(contact_states(system_.contact, F_C_)),
-        side_(mesh_.boundary.size()) {
-    std::map<int, int> row_of_edge;
-    for (int row = 0; row < rows(); ++row) row_of_edge[problem_.edges.of_boundary[row]] = row;
-    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
-      for (int k = 0; k < 3; ++k)
-        if (const auto row = row_of_edge.find(problem_.edges.of_triangle[t][k]);
-            row != row_of_edge.end())
-          side_[static_cast<std::size_t>(row->second)] = {t, k};
+        intervals_(fields.intervals),
+        side_(boundary_sides(problem_.edges)) {
     point_of_row_.assign(mesh_.boundary.size(), 0);
     for (int p = 0; p < system_.contact.count; p += system_.contact.per_edge)
       point_of_row_[static_cast<std::size_t>(system_.contact.boundary[p])] = p;
@@ -92,10 +86,6 @@ class PartReader {
   }
 
  private:
-  struct Side {
-    int triangle, k;
-  };
-
   int rows() const { return static_cast<int>(mesh_.boundary.size()); }
   std::string label(int row) const { return boundary_label(mesh_, mesh_.boundary[row]); }
   bool is_contact(int row) const { return mesh_.boundary[row].role == BoundaryRole::contact; }
@@ -125,47 +115,32 @@ class PartReader {
     return forces * Eigen::VectorXd::Ones(forces.cols());
   }
 
-  FaceAnswer& face_of(int row, std::map<std::string, FaceAnswer>& faces) const {
-    const int other = problem_.opposite_of(row);
-    const std::string name =
-        other == Problem::no_row ? label(row) : label(row) + " on " + label(other);
-    FaceAnswer& face = faces[name];
-    face.name = name;
-    return face;
-  }
-
   std::vector<FaceAnswer> faces() const {
-    const ContactPoints& contact = system_.contact;
-    const int m = contact.components, n = contact.per_edge;
-    std::map<std::string, FaceAnswer> faces;
-    for (int row = 0; row < rows(); ++row) {
-      if (!is_contact(row)) continue;
-      const int other = problem_.opposite_of(row),
-                first = point_of_row_[static_cast<std::size_t>(row)];
-      const bool is_second =
-          other != Problem::no_row && std::pair(label(row), row) > std::pair(label(other), other);
-      FaceAnswer& face = face_of(is_second ? other : row, faces);
-      AlongEdge normal_forces(n);
-      for (int j = 0; j < n; ++j) normal_forces(j) = F_C_(m * (first + j));
-      const LargestValue largest =
-          largest_value(pressure_along(problem_, row, normal_forces), {face.pressure_MPa.value});
-      if (largest.value > face.pressure_MPa.value)
-        face.pressure_MPa = {largest.value, at(row, largest.s)};
-      if (is_second) continue;
-      const double whole = length(row);
-      for (int p = first; p < first + n; ++p) {
-        face.normal_N += F_C_(m * p);
-        if (m == 2) face.tangential_N += F_C_(m * p + 1);
-        const ContactState state = states_[static_cast<std::size_t>(p)];
-        if (state != ContactState::open) face.closed_mm += whole / n;
-        if (state == ContactState::slip) face.slipping_mm += whole / n;
+    const int m = system_.contact.components, n = system_.contact.per_edge;
+    std::vector<FaceAnswer> answers;
+    for (const ContactFace& face : contact_faces(problem_)) {
+      FaceAnswer answer;
+      answer.name = face.name;
+      for (const int row : face.rows) {
+        const int first = point_of_row_[static_cast<std::size_t>(row)];
+        const double whole = length(row);
+        for (int p = first; p < first + n; ++p) {
+          answer.normal_N += F_C_(m * p);
+          if (m == 2) answer.tangential_N += F_C_(m * p + 1);
+          const ContactState state = states_[static_cast<std::size_t>(p)];
+          if (state != ContactState::open) answer.closed_mm += whole / n;
+          if (state == ContactState::slip) answer.slipping_mm += whole / n;
+        }
+        answer.length_mm += whole;
+        answer.force_N += force_on(row);
       }
-      face.length_mm += whole;
-      face.force_N += force_on(row);
+      const LargestPressure largest =
+          largest_pressure(problem_, stress_, is_on_face(problem_, face), side_);
+      answer.pressure_MPa = {largest.pressure_MPa, largest.at_mm};
+      if (intervals_ != nullptr) answer.within = intervals_->faces[answers.size()];
+      answers.push_back(std::move(answer));
     }
-    std::vector<FaceAnswer> list;
-    for (auto& [name, face] : faces) list.push_back(std::move(face));
-    return list;
+    return answers;
   }
 
   std::vector<SupportAnswer> supports() const {
@@ -294,8 +269,9 @@ class PartReader {
   int degree_;
   const Eigen::VectorXd& F_C_;
   std::vector<ContactState> states_;
-  std::vector<Side> side_;         // per row of Mesh::boundary
-  std::vector<int> point_of_row_;  // its first contact point
+  const ContactIntervals* intervals_;
+  std::vector<TriangleSide> side_;  // per row of Mesh::boundary
+  std::vector<int> point_of_row_;   // its first contact point
 };
 
 Json point(const Eigen::Vector2d& x) { return Json::array({x.x(), x.y()}); }
@@ -307,6 +283,25 @@ Json to_json(const LargestStress& largest) {
   if (largest.off_MPa) json["off"] = *largest.off_MPa;
   if (const auto& place = largest.unbounded)
     json["unbounded"] = {{"what", place->what}, {"at_mm", point(place->at_mm)}};
+  return json;
+}
+Json to_json(const FaceAnswer& face) {
+  Json json = {{"name", face.name},
+               {"force_N", point(face.force_N)},
+               {"normal_N", face.normal_N},
+               {"tangential_N", face.tangential_N},
+               {"length_mm", face.length_mm},
+               {"closed_mm", face.closed_mm},
+               {"slipping_mm", face.slipping_mm},
+               {"pressure_MPa", to_json(face.pressure_MPa)}};
+  if (!face.within) return json;
+  const auto add = [](Json& of, const char* name, const std::optional<Bracket>& interval) {
+    if (interval) of[name] = Json::array({interval->low, interval->high});
+  };
+  add(json, "normal_in_N", face.within->normal_resultant_N);
+  add(json, "tangential_in_N", face.within->tangential_resultant_N);
+  json["pressure_MPa"]["is"] = name_of(face.within->peak);
+  add(json["pressure_MPa"], "in", face.within->largest_pressure_within_MPa);
   return json;
 }
 
@@ -333,15 +328,7 @@ Eigen::Vector2d principal_stresses(const Eigen::Vector3d& s) {
 
 Json to_json(const PartAnswer& answer) {
   Json json = {{"faces", Json::array()}, {"supports", Json::array()}};
-  for (const FaceAnswer& face : answer.faces)
-    json["faces"].push_back({{"name", face.name},
-                             {"force_N", point(face.force_N)},
-                             {"normal_N", face.normal_N},
-                             {"tangential_N", face.tangential_N},
-                             {"length_mm", face.length_mm},
-                             {"closed_mm", face.closed_mm},
-                             {"slipping_mm", face.slipping_mm},
-                             {"pressure_MPa", to_json(face.pressure_MPa)}});
+  for (const FaceAnswer& face : answer.faces) json["faces"].push_back(to_json(face));
   for (const SupportAnswer& support : answer.supports)
     json["supports"].push_back({{"name", support.name}, {"force_N", point(support.force_N)}});
   if (answer.displacement_mm) json["displacement_mm"] = to_json(*answer.displacement_mm);

@@ -26,6 +26,7 @@ struct FaceAnswer {
   double normal_N = 0, tangential_N = 0;  // Σ F_n, Σ F_t
   double length_mm = 0, closed_mm = 0, slipping_mm = 0;  // of it: in contact, of that: slipping
   ValueAt pressure_MPa;                                  // of a pair on both
+  std::optional<FaceIntervals> within;                   // empty: not known
 };
 
 struct SupportAnswer {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <new>
 
-#include "bench/problems/hdf5_handle.hpp"
 #include "bench/problems/problem_parts.hpp"
 #include "support/errors.hpp"
+#include "support/hdf5_handle.hpp"
 #include "support/process.hpp"
 #include "support/seconds_since.hpp"
 

@@ -6,9 +6,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "bench/problems/hdf5_handle.hpp"
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/condensed.hpp"
+#include "support/hdf5_handle.hpp"
 
 namespace airybench {
 namespace {

@@ -43,16 +43,29 @@ std::string within(const std::optional<double>& low, const std::optional<double>
   return low && high ? fmt::format(" in [{:.5g}, {:.5g}]", *low, *high) : "";
 }
 
+// "[95.2, 104.8]"; "-": it is not known.
+std::string interval(const Json& of, const char* key) {
+  if (!of.contains(key)) return "-";
+  return fmt::format("[{:.5g}, {:.5g}]", of[key][0].get<double>(), of[key][1].get<double>());
+}
+std::string pressure_within(const Json& pressure) {
+  const std::string is = pressure.value("is", "");
+  if (is == "unbounded") return "unbounded: a sharp edge";
+  return is == "not seen" ? is : interval(pressure, "in");
+}
+
 Rows faces_table(const Json& part, const Forces& forces) {
   if (part["faces"].empty()) return {};
-  Rows rows = {{"contact", "force x, y N", "F_n N", "F_t N", "peak MPa", "at mm", "closed mm",
-                "of that slips mm"}};
+  Rows rows = {{"contact", "force x, y N", "F_n N", "within", "F_t N", "within", "peak MPa",
+                "within", "at mm", "closed mm", "of that slips mm"}};
   for (const Json& face : part["faces"]) {
     const double closed = face["closed_mm"], length = face["length_mm"],
                  peak = face["pressure_MPa"]["value"];
     rows.push_back({face["name"], forces.both(face["force_N"]),
-                    forces.text(face["normal_N"].get<double>()),
-                    forces.text(face["tangential_N"].get<double>()), peak > 0 ? number(peak) : "-",
+                    forces.text(face["normal_N"].get<double>()), interval(face, "normal_in_N"),
+                    forces.text(face["tangential_N"].get<double>()),
+                    interval(face, "tangential_in_N"), peak > 0 ? number(peak) : "-",
+                    peak > 0 ? pressure_within(face["pressure_MPa"]) : "-",
                     peak > 0 ? place(face["pressure_MPa"]["at_mm"]) : "-",
                     fmt::format("{:.4g} of {:.4g}", closed, length),
                     closed > 0 ? fmt::format("{:.4g}", face["slipping_mm"].get<double>()) : "-"});

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 
 #include "assembly/elements/bernstein.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "bench/verify/along_contact.hpp"
-#include "bench/verify/displacement_recovery.hpp"
-#include "solvers/methods.hpp"
 
 namespace airybench {
 namespace {
@@ -19,145 +15,63 @@ EdgeFrame frame_of(const Mesh& mesh, int row) {
   return edge_frame(mesh.vertices[a], mesh.vertices[b]);
 }
 
-// Per row: the contact edges that v moves, walls and of each pair the edge whose normal is that of
-// the walls, or of the first edge. Empty if they have several normals, or a vertex on Γ_D.
-std::vector<bool> moved_edges(const Problem& problem) {
-  const Mesh& mesh = problem.mesh;
-  std::vector<bool> is_held(mesh.vertices.size(), false), is_moved(mesh.boundary.size(), false);
-  for (const BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::displacement)
-      for (const int v : edge.vertices) is_held[v] = true;
-  std::vector<int> rows;
-  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
-    if (mesh.boundary[row].role == BoundaryRole::contact) rows.push_back(row);
-  std::stable_partition(rows.begin(), rows.end(),
-                        [&](int row) { return problem.opposite_of(row) == Problem::no_row; });
-  for (const int row : rows) {
-    const Eigen::Vector2d normal = frame_of(mesh, rows.front()).normal,
-                          own = frame_of(mesh, row).normal;
-    const auto differs = [&](const Eigen::Vector2d& n) {
-      return (n - own).norm() > straight_roller;
-    };
-    for (const int i : {0, 1, 2})
-      if (differs(problem.frame_at(row, i, 2).normal)) return {};
-    if (problem.opposite_of(row) != Problem::no_row && !differs(-normal)) continue;
-    if (differs(normal)) return {};
-    for (const int v : mesh.boundary[row].vertices)
-      if (is_held[v]) return {};
-    is_moved[row] = true;
+// sum_N: that of σ, from which its work differs by rounding and on curves. error: of the mean.
+std::optional<Bracket> resultant(const Problem& problem, const StressField& mean,
+                                 const StressField& stress, double sum_N, double error,
+                                 double rounding_N, const std::optional<Lift>& lift) {
+  if (!lift) return {};
+  double of_mean = -work_of_loads(problem, lift->v), of_stress = of_mean;
+  for (int t = 0; t < static_cast<int>(mean.size()); ++t) {
+    of_mean += stress_product(problem, t, mean, lift->stress);
+    of_stress += stress_product(problem, t, stress, lift->stress);
   }
-  return is_moved;
+  const double half = error * lift->norm + std::abs(sum_N - of_stress) + rounding_N;
+  return Bracket{of_mean - half, of_mean + half};
 }
 
-// v = 0 on Γ_D, [v] = n or t on Γ_C (without friction only n·[v] = 1, unless that leaves a body
-// free). Empty if HYBRID fails.
-std::optional<DisplacementField> lifted(const Problem& problem, const std::vector<bool>& is_moved,
-                                        int degree, bool tangential) {
-  Mesh mesh = problem.mesh;
-  Loads loads;
-  loads.rollers.assign(mesh.boundary.size(), false);
-  std::vector<Eigen::Vector2d> on_edge(mesh.boundary.size(), Eigen::Vector2d::Zero());
-  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
-    if (mesh.boundary[row].role == BoundaryRole::contact) {
-      const EdgeFrame frame = frame_of(mesh, row);
-      if (is_moved[row]) on_edge[row] = tangential ? frame.tangent : frame.normal;
-      loads.rollers[row] = !problem.has_friction() && problem.free.motions.empty();
-      mesh.boundary[row].role = BoundaryRole::displacement;
-    } else {
-      loads.rollers[row] = problem.is_roller(row);
-    }
-  }
-  loads.displacement_mm = [on_edge](const Eigen::Vector2d&, int row) { return on_edge[row]; };
-  const DualSystem system = assemble(std::make_shared<const Problem>(make_problem(
-                                         std::move(mesh), problem.compliance, std::move(loads), 0)),
-                                     Blocks::contact_points, degree);
-  const Solution solution = run(select_methods(hybrid_of_degree(degree)).front(), system, {});
-  if (solution.status != Status::ok) return {};
-  return with_rigid_motion(
-      *system.problem,
-      recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
-}
-
-std::optional<Bracket> resultant(const Problem& problem, const StressField& mean, double error,
-                                 const std::optional<DisplacementField>& v) {
-  if (!v) return {};
-  const StressField strained = stress_of_displacement(problem, *v);
-  double work = -work_of_loads(problem, *v);
-  for (int t = 0; t < static_cast<int>(mean.size()); ++t)
-    work += stress_product(problem, t, mean, strained);
-  const double half = error * std::sqrt(stress_norm_squared(problem, strained));
-  return Bracket{work - half, work + half};
-}
-
-struct LargestPressure {
-  double pressure_MPa = -std::numeric_limits<double>::infinity();
-  double of_edge_MPa = pressure_MPa;  // the largest mean over an edge
-  int triangle = 0;
-  Eigen::Vector2d normal = {0, 0};
-};
-
-LargestPressure largest_pressure(const Problem& problem, const StressField& stress) {
-  std::vector<int> contact_row(static_cast<std::size_t>(problem.edges.count()), -1);
-  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
-    if (problem.mesh.boundary[row].role == BoundaryRole::contact)
-      contact_row[problem.edges.of_boundary[row]] = row;
-  LargestPressure peak;
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const int row = contact_row[problem.edges.of_triangle[t][k]];
-      if (row < 0) continue;
-      const bool is_curved = problem.follows_curve(row, stress.degree());
-      const ForcesOnEdge forces = is_curved
-                                      ? curved_edge_forces(problem.vertices_of(t), stress[t], k,
-                                                           problem.curve_of(row, stress.degree()))
-                                      : element_edge_forces(problem.vertices_of(t), stress[t], k);
-      EdgeFrame frame = frame_of(problem.mesh, row);
-      AlongEdge normal_forces(stress.degree() + 1);
-      for (int j = 0; j <= stress.degree(); ++j) {
-        if (is_curved) frame = problem.frame_of_moment(row, stress.degree(), j);
-        normal_forces(j) = frame.normal.dot(forces.col(j));
-      }
-      const AlongEdge pressure = pressure_along(problem, row, normal_forces);
-      peak.of_edge_MPa = std::max(peak.of_edge_MPa, pressure.mean());
-      const double largest = largest_value(pressure, {peak.pressure_MPa}).value;
-      if (largest > peak.pressure_MPa) {
-        peak.pressure_MPa = largest;
-        peak.triangle = t;
-        peak.normal = frame.normal;
-      }
-    }
-  return peak;
-}
-
-// A contact face of chords that are not parallel.
-bool has_polygon(const Problem& problem, int degree) {
+// Among these rows chords of a curve, which are not parallel.
+bool has_polygon(const Problem& problem, int degree, const std::vector<bool>& asked) {
   const Mesh& mesh = problem.mesh;
-  for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact))
-    for (const int row : rows)
-      if (!problem.follows_curve(row, degree) &&
-          (frame_of(mesh, row).normal - frame_of(mesh, rows.front()).normal).norm() >
-              straight_roller)
+  for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact)) {
+    std::optional<Eigen::Vector2d> first;
+    for (const int row : rows) {
+      if (!asked[row]) continue;
+      const Eigen::Vector2d normal = frame_of(mesh, row).normal;
+      if (!first) first = normal;
+      if (!problem.follows_curve(row, degree) && (normal - *first).norm() > straight_roller)
         return true;
+    }
+  }
   return false;
 }
 
-void set_largest_pressure(const Problem& problem, const StressField& stress,
-                          const DisplacementField& u, const ConstitutiveError& error,
-                          ContactIntervals& result) {
+// Of all faces; an error elsewhere has its size from there.
+struct Pressures {
+  const Problem& problem;
+  const StressField &stress, of_u;
+  const ConstitutiveError& error;
+  std::vector<TriangleSide> sides;
+  double largest_MPa;
+};
+
+void set_largest_pressure(const Pressures& all, const std::vector<bool>& asked,
+                          FaceIntervals& result) {
   constexpr double safety = 2, useful = 0.5;
-  const LargestPressure of_stress = largest_pressure(problem, stress);
+  const Problem& problem = all.problem;
+  const LargestPressure of_stress = largest_pressure(problem, all.stress, asked, all.sides);
   const double p = result.largest_pressure_MPa = of_stress.pressure_MPa;
+  result.largest_pressure_at_mm = of_stress.at_mm;
   if (result.peak != PressurePeak::bounded) return;
-  const double of_u = largest_pressure(problem, stress_of_displacement(problem, u)).pressure_MPa;
+  const double of_u = largest_pressure(problem, all.of_u, asked, all.sides).pressure_MPa;
   const int t = of_stress.triangle;
   const Eigen::Vector2d& n = of_stress.normal;
   const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // n⊗n as a strain
   const double stiffness_MPa = nn.dot(elasticity_of(problem.compliance_of(t)) * nn),
-               own = std::sqrt(std::max(0.0, error.of_triangle_Nmm[t]) * stiffness_MPa /
+               own = std::sqrt(std::max(0.0, all.error.of_triangle_Nmm[t]) * stiffness_MPa /
                                problem.area_mm2(t)),
-               from_afar = std::max(0.0, p) * error.relative * error.relative,
+               from_afar = std::max(0.0, all.largest_MPa) * all.error.relative * all.error.relative,
                delta = safety * (std::abs(p - of_u) + own + from_afar),
-               least = has_polygon(problem, stress.degree()) ? of_stress.of_edge_MPa : p;
+               least = has_polygon(problem, all.stress.degree(), asked) ? of_stress.of_edge_MPa : p;
   if (delta <= useful * p)
     result.largest_pressure_within_MPa = Bracket{std::max(0.0, least - delta), p + delta};
 }
@@ -227,13 +141,37 @@ std::vector<ContactEnd> contact_ends(const DualSystem& system, const Eigen::Vect
 
 }  // namespace
 
-ResultantLifts resultant_lifts(const Problem& problem, int degree) {
-  const std::vector<bool> is_moved = moved_edges(problem);
-  if (std::ranges::none_of(is_moved, std::identity())) return {};
-  ResultantLifts lifts;
-  lifts.normal = lifted(problem, is_moved, degree, false);
-  if (problem.has_friction()) lifts.tangential = lifted(problem, is_moved, degree, true);
-  return lifts;
+LargestPressure largest_pressure(const Problem& problem, const StressField& stress,
+                                 const std::vector<bool>& asked,
+                                 const std::vector<TriangleSide>& sides) {
+  LargestPressure peak;
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    if (!asked[row] || problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const auto [t, k] = sides[static_cast<std::size_t>(row)];
+    const bool is_curved = problem.follows_curve(row, stress.degree());
+    const ForcesOnEdge forces = is_curved
+                                    ? curved_edge_forces(problem.vertices_of(t), stress[t], k,
+                                                         problem.curve_of(row, stress.degree()))
+                                    : element_edge_forces(problem.vertices_of(t), stress[t], k);
+    EdgeFrame frame = frame_of(problem.mesh, row);
+    AlongEdge normal_forces(stress.degree() + 1);
+    for (int j = 0; j <= stress.degree(); ++j) {
+      if (is_curved) frame = problem.frame_of_moment(row, stress.degree(), j);
+      normal_forces(j) = frame.normal.dot(forces.col(j));
+    }
+    const AlongEdge pressure = pressure_along(problem, row, normal_forces);
+    peak.of_edge_MPa = std::max(peak.of_edge_MPa, pressure.mean());
+    const LargestValue largest = largest_value(pressure, {peak.pressure_MPa});
+    if (largest.value <= peak.pressure_MPa) continue;
+    peak.pressure_MPa = largest.value;
+    peak.triangle = t;
+    peak.normal = frame.normal;
+    const auto [a, b] = problem.mesh.boundary[row].vertices;
+    peak.at_mm = is_curved ? problem.mesh.boundary[row].curve.at(largest.s)
+                           : Eigen::Vector2d((1 - largest.s) * problem.mesh.vertices[a] +
+                                             largest.s * problem.mesh.vertices[b]);
+  }
+  return peak;
 }
 
 std::optional<ContactIntervals> contact_intervals(
@@ -241,16 +179,34 @@ std::optional<ContactIntervals> contact_intervals(
     const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts) {
   if (system.contact.count == 0) return {};
   const Problem& problem = *system.problem;
+  const int m = system.contact.components;
+  const StressField mean = mean_stress(problem, stress, u);
+  const double of_mean = std::sqrt(std::max(0.0, error.squared_of_mean_Nmm())),
+               rounding_N = 1e-11 * F_C.lpNorm<1>();
+  const std::vector<bool> all(problem.mesh.boundary.size(), true);
+  Pressures pressures{
+      problem, stress, stress_of_displacement(problem, u), error, boundary_sides(problem.edges), 0};
+  pressures.largest_MPa = largest_pressure(problem, stress, all, pressures.sides).pressure_MPa;
+  const auto set = [&](const std::vector<bool>& asked, const FaceLifts& own, FaceIntervals& of) {
+    Eigen::Vector2d sum_N(0, 0);  // of a pair one edge's forces
+    for (int p = 0; p < system.contact.count; ++p) {
+      const int row = system.contact.boundary[p];
+      if (!asked[row] || problem.is_second_of_pair(row)) continue;
+      for (int component = 0; component < m; ++component)
+        sum_N(component) += F_C(m * p + component);
+    }
+    of.normal_resultant_N =
+        resultant(problem, mean, stress, sum_N.x(), of_mean, rounding_N, own.normal);
+    of.tangential_resultant_N =
+        resultant(problem, mean, stress, sum_N.y(), of_mean, rounding_N, own.tangential);
+    of.peak = pressure_peak(system, F_C, asked);
+    set_largest_pressure(pressures, asked, of);
+  };
   ContactIntervals result;
   result.guaranteed = error.guaranteed;
-  if (lifts.normal) {
-    const StressField mean = mean_stress(problem, stress, u);
-    const double of_mean = std::sqrt(std::max(0.0, error.squared_of_mean_Nmm()));
-    result.normal_resultant_N = resultant(problem, mean, of_mean, lifts.normal);
-    result.tangential_resultant_N = resultant(problem, mean, of_mean, lifts.tangential);
-  }
-  result.peak = pressure_peak(system, F_C);
-  set_largest_pressure(problem, stress, u, error, result);
+  set(all, lifts.of_all, result);
+  for (std::size_t face = 0; face < lifts.faces.size(); ++face)
+    set(is_on_face(problem, lifts.faces[face]), lifts.of_faces[face], result.faces.emplace_back());
   result.ends = contact_ends(system, F_C);
   return result;
 }

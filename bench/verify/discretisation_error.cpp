@@ -12,6 +12,7 @@
 #include "bench/verify/along_contact.hpp"
 #include "bench/verify/geometry_error.hpp"
 #include "bench/verify/verifier.hpp"
+#include "mesh/boundary_sides.hpp"
 
 namespace airybench {
 namespace {
@@ -203,9 +204,7 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   const CurvedTraces traces(problem, k + 1);
   const DisplacementField of_traces = traces.traces(u);
   add_body(problem, traces, fields, error);
-  std::vector<int> triangle_of_edge(static_cast<std::size_t>(problem.edges.count()));
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
-    for (const int edge : problem.edges.of_triangle[t]) triangle_of_edge[edge] = t;
+  const std::vector<TriangleSide> sides = boundary_sides(problem.edges);
   double highest_gap = 0, highest_force = 0;
   const Eigen::VectorXd compliance = rough_compliance(problem, system.contact);
   for (int point = 0; point < system.contact.count; point += k + 1) {
@@ -220,7 +219,7 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
     const std::vector<int> rows =
         other == Problem::no_row ? std::vector<int>{row} : std::vector<int>{row, other};
     for (const int side : rows)
-      error.of_triangle_Nmm[triangle_of_edge[problem.edges.of_boundary[side]]] +=
+      error.of_triangle_Nmm[sides[static_cast<std::size_t>(side)].triangle] +=
           (terms.normal + terms.tangential + beyond_wall) / static_cast<double>(rows.size());
     highest_gap = std::max(highest_gap, terms.highest_gap);
     highest_force = std::max(highest_force, terms.highest_force);

@@ -7,6 +7,7 @@
 
 #include "assembly/elements/curved_side.hpp"
 #include "assembly/elements/edge_forces.hpp"
+#include "mesh/boundary_sides.hpp"
 #include "mesh/supposed_curves.hpp"
 
 namespace airybench {
@@ -123,14 +124,10 @@ std::vector<double> geometry_error(const Problem& problem, const StressField& st
       side[row].curve = &boundary[row].curve;
   for (const SupposedCurve& curve : supposed_curves(problem.mesh))
     side[static_cast<std::size_t>(curve.boundary_row)].supposed = curve;
-  std::vector<int> row_of_edge(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);
+  const std::vector<TriangleSide> sides = boundary_sides(problem.edges);
   for (std::size_t row = 0; row < boundary.size(); ++row)
-    if (!side[row].is_edge()) row_of_edge[problem.edges.of_boundary[row]] = static_cast<int>(row);
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
-    for (int k = 0; k < 3; ++k)
-      if (const int row = row_of_edge[problem.edges.of_triangle[t][k]]; row != Problem::no_row)
-        squared[t] +=
-            squared_error(problem, stress, t, k, row, side[static_cast<std::size_t>(row)]);
+    if (const auto [t, k] = sides[row]; !side[row].is_edge())
+      squared[t] += squared_error(problem, stress, t, k, static_cast<int>(row), side[row]);
   return squared;
 }
 

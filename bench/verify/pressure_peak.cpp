@@ -8,6 +8,7 @@
 
 #include "bench/verify/along_contact.hpp"
 #include "bench/verify/verifier.hpp"
+#include "mesh/boundary_sides.hpp"
 
 namespace airybench {
 namespace {
@@ -24,8 +25,9 @@ class Face {
     AlongEdge pressure;
   };
 
+  // Its highest pressure is that of the edges asked for.
   Face(const DualSystem& system, const Eigen::VectorXd& F_C, const std::vector<int>& rows,
-       const std::vector<int>& point_of_row) {
+       const std::vector<int>& point_of_row, const std::vector<bool>& asked) {
     const Mesh& mesh = system.problem->mesh;
     const int m = system.contact.components, n = system.contact.per_edge;
     is_closed_ = mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
@@ -35,6 +37,7 @@ class Face {
       for (int j = 0; j < n; ++j) normal_forces(j) = F_C(m * (point_of_row[row] + j));
       edges_.push_back({row, length_, length, pressure_along(*system.problem, row, normal_forces)});
       length_ += length;
+      if (!asked[row]) continue;
       if (const LargestValue largest = largest_value(edges_.back().pressure, {highest_});
           largest.value > highest_) {
         highest_ = largest.value;
@@ -97,30 +100,25 @@ struct Place {
 
 class Places {
  public:
-  Places(const DualSystem& system, const Eigen::VectorXd& F_C)
+  Places(const DualSystem& system, const Eigen::VectorXd& F_C, const std::vector<bool>& asked)
       : system_(system),
+        asked_(asked),
         problem_(*system.problem),
         states_(contact_states(system.contact, F_C)),
         point_of_row_(problem_.mesh.boundary.size(), 0),
         before_(problem_.mesh.vertices.size(), Problem::no_row),
         after_(before_),
-        triangle_(problem_.mesh.boundary.size(), 0) {
+        side_(boundary_sides(problem_.edges)) {
     const Mesh& mesh = problem_.mesh;
     for (int p = 0; p < system.contact.count; p += system.contact.per_edge)
       point_of_row_[system.contact.boundary[p]] = p;
-    std::vector<int> row_of_edge(static_cast<std::size_t>(problem_.edges.count()), Problem::no_row);
-    for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
       before_[mesh.boundary[row].vertices[1]] = after_[mesh.boundary[row].vertices[0]] = row;
-      row_of_edge[problem_.edges.of_boundary[row]] = row;
-    }
-    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-      for (const int edge : problem_.edges.of_triangle[t])
-        if (row_of_edge[edge] != Problem::no_row) triangle_[row_of_edge[edge]] = t;
   }
 
   const std::vector<int>& point_of_row() const { return point_of_row_; }
 
-  // Those in contact: with more pressure than this.
+  // Those in contact, with more pressure than this, of the edges asked for.
   std::vector<Place> on(const Face& face, double open_MPa) const {
     const std::vector<Face::Edge>& edges = face.edges();
     const auto starting = [](const Face::Edge& e) { return e.pressure(0); };
@@ -128,29 +126,31 @@ class Places {
     std::vector<Place> places;
     for (std::size_t k = 0; k < edges.size(); ++k) {
       const Face::Edge& e = edges[k];
-      if (e.pressure.maxCoeff() > open_MPa && is_uneven(e))
+      if (asked_[e.row] && e.pressure.maxCoeff() > open_MPa && is_uneven(e))
         places.push_back({e.start + e.length / 2, e.length});
       if (k == 0 && !face.is_closed()) continue;
       const Face::Edge& before = k == 0 ? edges.back() : edges[k - 1];
       const double at_vertex = std::max(starting(e), ending(before));
-      if (at_vertex > open_MPa && !is_smooth(before, e))
+      if ((asked_[e.row] || asked_[before.row]) && at_vertex > open_MPa && !is_smooth(before, e))
         places.push_back({e.start, std::min(e.length, before.length)});
     }
     if (face.is_closed()) return places;
     const Face::Edge &first = edges.front(), &last = edges.back();
-    if (starting(first) > open_MPa && !is_regular_end(first.row, 0))
+    if (asked_[first.row] && starting(first) > open_MPa && !is_regular_end(first.row, 0))
       places.push_back({0, first.length});
-    if (ending(last) > open_MPa && !is_regular_end(last.row, 1))
+    if (asked_[last.row] && ending(last) > open_MPa && !is_regular_end(last.row, 1))
       places.push_back({last.start + last.length, last.length});
     return places;
   }
 
  private:
+  const Eigen::Matrix3d& compliance_at(int row) const {
+    return problem_.compliance_of(side_[static_cast<std::size_t>(row)].triangle);
+  }
   // 1/E' of both bodies.
   double compliance(int row) const {
     const int other = problem_.opposite_of(row);
-    return problem_.compliance_of(triangle_[row])(0, 0) +
-           (other == Problem::no_row ? 0 : problem_.compliance_of(triangle_[other])(0, 0));
+    return compliance_at(row)(0, 0) + (other == Problem::no_row ? 0 : compliance_at(other)(0, 0));
   }
   double gap_mm(int row, double s) const {
     const auto own = [&](int r, double at) {
@@ -183,7 +183,7 @@ class Places {
     const int a = before.row, b = after.row;
     const auto is_alike = [&](int one, int other) {
       return problem_.friction_at(one) == problem_.friction_at(other) &&
-             problem_.compliance_of(triangle_[one]) == problem_.compliance_of(triangle_[other]);
+             compliance_at(one) == compliance_at(other);
     };
     const int beyond_a = problem_.opposite_of(a), beyond_b = problem_.opposite_of(b);
     if (!is_alike(a, b) || (beyond_a == Problem::no_row) != (beyond_b == Problem::no_row))
@@ -225,9 +225,11 @@ class Places {
   }
 
   const DualSystem& system_;
+  const std::vector<bool>& asked_;
   const Problem& problem_;
   std::vector<ContactState> states_;
-  std::vector<int> point_of_row_, before_, after_, triangle_;
+  std::vector<int> point_of_row_, before_, after_;
+  std::vector<TriangleSide> side_;
 };
 
 bool grows_towards(const Face& face, const Place& place, double open_MPa) {
@@ -242,16 +244,19 @@ bool grows_towards(const Face& face, const Place& place, double open_MPa) {
 
 }  // namespace
 
-PressurePeak pressure_peak(const DualSystem& system, const Eigen::VectorXd& F_C) {
-  const Places places(system, F_C);
+PressurePeak pressure_peak(const DualSystem& system, const Eigen::VectorXd& F_C,
+                           const std::vector<bool>& asked) {
+  const Places places(system, F_C, asked);
   std::vector<Face> faces;
-  double highest = 0;
+  double highest = 0, highest_of_all = 0;
   for (const std::vector<int>& rows :
        boundary_chains(system.problem->mesh, BoundaryRole::contact)) {
-    faces.emplace_back(system, F_C, rows, places.point_of_row());
+    faces.emplace_back(system, F_C, rows, places.point_of_row(), asked);
     highest = std::max(highest, faces.back().highest_MPa());
+    for (const Face::Edge& edge : faces.back().edges())
+      highest_of_all = std::max(highest_of_all, edge.pressure.maxCoeff());
   }
-  const double open = 1e-9 * highest;
+  const double open = 1e-9 * highest_of_all;
   bool is_bounded = true;
   for (const Face& face : faces)
     for (const Place& place : places.on(face, open)) {

@@ -21,6 +21,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "assembly/dual_system.hpp"
 
@@ -32,7 +33,9 @@ constexpr const char* name_of(PressurePeak peak) {
   return names[static_cast<std::size_t>(peak)];
 }
 
-// F_C: at the contact points of `system`.
-PressurePeak pressure_peak(const DualSystem& system, const Eigen::VectorXd& F_C);
+// Of those edges of Γ_C that are asked for, per row of Mesh::boundary. F_C: at the contact points
+// of `system`.
+PressurePeak pressure_peak(const DualSystem& system, const Eigen::VectorXd& F_C,
+                           const std::vector<bool>& asked);
 
 }  // namespace airybench

@@ -156,6 +156,19 @@ std::vector<Kind> kinds() {
        body},
       {"trapezium.mesh", by_numbers, held_above, {free_2_4}, "", body},
       {"trapezium.stl", by_numbers, held_above, {free_2_4}, "", body},
+      {"trapezium.obj", by_numbers, held_above, {free_2_4}, "", body},
+#ifdef AIRYBENCH_HAS_HDF5
+      {"trapezium.med.gz",
+       {},
+       held_above,
+       {"1 quadrilaterals are split by the shorter diagonal", "no role is given to its curves "}},
+#endif
+      {"freefem.msh",
+       {"11=contact:sole", "13=displacement:head", "-1=force"},
+       held_above,
+       {"no role is given to its curves "},
+       "",
+       {"body2", "body5"}},
       {"trapezium.brep", by_numbers, held_above, {free_2_4}, "", body},
       {"trapezium.brep",
        {"rest=displacement"},
@@ -367,6 +380,36 @@ TEST(ForeignModel, ANameLikeARoleIsAskedAbout) {
   }
 }
 
+TEST(ForeignModel, WhatFilesLackThatGmshDoesNotReadIsTold) {
+  const testing::TemporaryFolder folder;
+  const std::string plate = "4 2 4\n0 0 1\n1 0 1\n1 1 2\n0 1 2\n1 2 3 0\n1 3 4 0\n",
+                    sides = "1 2 1\n2 3 2\n3 4 3\n4 1 4\n", corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+  for (const auto& [name, text, why] : std::vector<std::array<std::string, 3>>{
+           {"cut.msh", plate, "it ends where 'vertex vertex label' should come; is it truncated?"},
+           {"long.msh", plate + sides + "1 3 5\n", "line 12: more than its first line says"},
+           {"word.msh", "4 2 4\n0 0 1\n1 zero 1\n", "line 3: '1 zero 1' (expected: x y label)"},
+           {"space.msh", "4 2 4\n0 0 0 1\n", "line 2: '0 0 0 1' (expected: x y label)"},
+           {"vertex.msh", "3 1 0\n0 0 1\n1 0 1\n1 1 2\n1 2 4 0\n",
+            "line 5: vertex 4 (allowed: 1 to 3)"},
+           {"none.msh", "3 0 3\n", "line 1: no mesh of triangles"},
+           {"face.obj", corners + "f 1 2 4\n", "line 4: vertex '4' (allowed: 1 to 3)"},
+           {"line.obj", corners + "f 1 2\n", "line 4: a face of 2 corners (allowed: 3 or 4)"},
+           {"flat.obj", "v 0 0\n", "line 1: 'v 0 0' (expected: v x y z)"},
+#ifdef AIRYBENCH_HAS_HDF5
+           {"text.med", plate, "it cannot be opened (allowed: an HDF5 file)"},
+#endif
+           {"points.obj", corners, "no line f, a face"}}) {
+    const std::filesystem::path file = testing::write_text(folder / name, text);
+    EXPECT_EQ(testing::complaint_of<MeshError>([&] { convert_model(file); }),
+              file.string() + ": " + why);
+  }
+  const auto file = testing::write_text(folder / "plate.msh", plate + sides);
+  const Mesh mesh =
+      convert_model(file, model_options_of({"1=displacement", "rest=force"}, {}, "")).mesh;
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_EQ(mesh.body_names, Texts{"body"});
+}
+
 TEST(ForeignModel, WhatCannotBeReadIsTold) {
   struct Refusal {
     std::string file, role, begin, part = {};
@@ -388,7 +431,6 @@ TEST(ForeignModel, WhatCannotBeReadIsTold) {
             "(0, -5) to (10, 0); the body must be one (in Gmsh, Coherence or BooleanFragments "},
            {"tilted.geo", "", "it lies in no plane x, y or z = constant (x from 0 to 10, y from "},
            {"solid.inp", "", "line 6: elements of type C3D4 (allowed: of a plane body, as CPE3, "},
-           {"trapezium.med", "", "Gmsh 4.", " is built without MED here (allowed: "},
            {"options.geo.opt", "", "no model " + readable}}) {
     const std::filesystem::path path = model(file);
     const ModelOptions options = model_options_of(role.empty() ? Texts{} : Texts{role}, {}, "");

@@ -3,6 +3,7 @@
 
 #include "assembly/dual_system.hpp"
 #include "assembly/problem/pose.hpp"
+#include "mesh/boundary_sides.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::testing {
@@ -18,10 +19,11 @@ inline DualSystem system_of(const Scene& scene = {}, Mesh mesh = small_tooth(6, 
 // Calls visit(row, t, k) for every edge of the boundary: it is side k of triangle t.
 template <typename Visit>
 void visit_boundary(const Problem& problem, const Visit& visit) {
-  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
-    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
-      for (int k = 0; k < 3; ++k)
-        if (problem.edges.of_triangle[t][k] == problem.edges.of_boundary[row]) visit(row, t, k);
+  const std::vector<TriangleSide> sides = boundary_sides(problem.edges);
+  for (int row = 0; row < static_cast<int>(sides.size()); ++row) {
+    const TriangleSide& side = sides[static_cast<std::size_t>(row)];
+    visit(row, side.triangle, side.k);
+  }
 }
 
 }  // namespace airybench::testing

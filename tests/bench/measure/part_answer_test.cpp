@@ -25,7 +25,7 @@ TEST(PartAnswer, EquivalentAndPrincipalStresses) {
 class OfTooth : public ::testing::TestWithParam<int> {
  protected:
   const testing::Solved solved_{Scene{}, testing::small_tooth(6, 4), GetParam()};
-  const SolvedFields fields_{solved_.system, solved_.hybrid, solved_.w, nullptr, {}};
+  const SolvedFields fields_{solved_.system, solved_.hybrid, solved_.w, nullptr, nullptr, {}};
   const PartAnswer answer_ = part_answer(fields_);
 };
 

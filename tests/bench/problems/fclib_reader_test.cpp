@@ -10,12 +10,12 @@
 #include <random>
 
 #include "assembly/problem/scene.hpp"
-#include "bench/problems/hdf5_handle.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
+#include "support/hdf5_handle.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/posed.hpp"
