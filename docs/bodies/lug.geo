@@ -1,5 +1,5 @@
 // A pin in the hole of a lug: held at its middle, it pulls the lug to the right against its foot.
-DefineConstant[ h = 2 ];
+DefineConstant[ h = 4 ];
 R = 6;  c = 0.02;                       // radius of the hole, clearance
 Point(1) = {0, 0, 0, h};
 Point(2) = {R, 0, 0, h/5};  Point(3) = {0, R, 0, h/5};  Point(4) = {-R, 0, 0, h/5};  Point(5) = {0, -R, 0, h/5};
