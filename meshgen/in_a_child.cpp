@@ -1,11 +1,14 @@
 #include "meshgen/in_a_child.hpp"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <iostream>
 #include <optional>
 
 #include "meshgen/complaints.hpp"
@@ -40,11 +43,39 @@ void refuse_if_it_needs_confinement(const std::filesystem::path& model, bool wri
         "Landlock and seccomp)");
 }
 
+// What the child says on standard error, in memory that both share: in a crash the C library says
+// something there, too.
+class Said {
+ public:
+  Said() : descriptor_(memfd_create("said", MFD_CLOEXEC)) {}
+  ~Said() { close(descriptor_); }
+  Said(const Said&) = delete;
+  Said& operator=(const Said&) = delete;
+  void lead_here() const { dup2(descriptor_, STDERR_FILENO); }  // in the child
+  // To standard error: all, or the notes that come before anything else.
+  void pass_on(bool all) {
+    std::array<char, 4096> part;
+    for (ssize_t n; (n = pread(descriptor_, part.data(), part.size(), read_)) > 0; read_ += n)
+      unsaid_.append(part.data(), static_cast<std::size_t>(n));
+    for (std::size_t end; (end = unsaid_.find('\n')) != unsaid_.npos; unsaid_.erase(0, end + 1)) {
+      if (!all && !unsaid_.starts_with("note: ")) return;
+      std::cerr << unsaid_.substr(0, end + 1);
+    }
+  }
+
+ private:
+  int descriptor_;
+  off_t read_ = 0;
+  std::string unsaid_;
+};
+
 // scratch: what a crash leaves is removed with it.
 Attempt attempt(const std::filesystem::path& model, const ModelLimits& limits,
                 const std::filesystem::path& scratch,
                 const std::function<void(const AboutToMesh&)>& work) {
+  Said said;
   ChildProcess child([&](Channel& channel) {
+    said.lead_here();
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
       std::signal(signal, SIG_DFL);  // sanitizers catch some, and exit
     setenv("TMPDIR", scratch.c_str(), 1);
@@ -62,6 +93,7 @@ Attempt attempt(const std::filesystem::path& model, const ModelLimits& limits,
   double suspended_s = 0;
   const auto passes_a_limit = [&](double further_s) {
     suspended_s += further_s;
+    said.pass_on(/*all=*/false);
     if (seconds_since(begun) - suspended_s > limits.time_s)
       made.passed_limit = fmt::format("more than {:g} s (more with {}=SECONDS)", limits.time_s,
                                       model_time_setting.option);
@@ -73,6 +105,7 @@ Attempt attempt(const std::filesystem::path& model, const ModelLimits& limits,
   while (const std::optional<std::string> line = child.ask("", passes_a_limit))
     made.algorithm = line;
   made.end = child.end();
+  said.pass_on(/*all=*/made.end.signal == 0);
   return made;
 }
 
