@@ -5,6 +5,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "support/errors.hpp"
 #include "support/messages.hpp"
 
 namespace airybench {
@@ -18,6 +19,8 @@ int complained(const std::function<int()>& act) {
   try {
     return act();
   } catch (const std::invalid_argument& error) {
+    return complain(error.what(), exit_usage);
+  } catch (const UsageError& error) {
     return complain(error.what(), exit_usage);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", exit_failure);

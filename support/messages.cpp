@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "support/atomic_file.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {
@@ -150,6 +151,7 @@ std::string one_line(std::string message) {
 }
 
 void print_data(std::string_view text) {
+  require_standard_output();
   std::fflush(stdout);
   output().is_data = true;
   std::fwrite(text.data(), 1, text.size(), stdout);

@@ -18,7 +18,8 @@ void show_messages_escaped();
 // On one line, but for those of a table, which are indented.
 std::string one_line(std::string message);
 
-// Writes to standard output what programs read: as it is, unless that is a terminal.
+// Writes to standard output what programs read: as it is, unless that is a terminal. Throws
+// UsageError if it was closed at the start.
 void print_data(std::string_view text);
 
 }  // namespace airybench

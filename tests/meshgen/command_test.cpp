@@ -41,6 +41,27 @@ TEST_F(Command, OutputThatCannotBeWrittenIsTold) {
     EXPECT_EQ(exit_code_of(command + " >&- 2>&-"), 0) << arguments;
   }
   EXPECT_EQ(text_of(folder / "m.msh").substr(0, 12), "$MeshFormat\n");
+  write_text(folder / "a.geo", triangle_geo);
+  for (const char* arguments : {"--convert=a.geo --out=-", "--show=a.geo --out=-"}) {
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && AIRYBENCH_CACHE_DIR=.cache '" +
+                                testing::meshgen_executable().string() + "' " + arguments;
+    EXPECT_EQ(exit_code_of(command + " >&- 2>.err"), 2) << arguments;
+    EXPECT_EQ(text_of(folder / ".err"),
+              "meshgen: standard output: is closed (allowed: an open one, or --out=FILE)\n");
+  }
+}
+
+TEST_F(Command, NamesAreEscapedInMessagesAndKeptInMeshes) {
+  const std::string name = "g\u202Ee\uFEFF";
+  write_text(folder / (name + ".geo"), triangle_geo + ("Physical Curve(\"" + name + "\") = {1};"));
+  const Outcome told = run("--convert='" + name + ".geo' --out='" + name + ".msh'"),
+                piped = run("--convert='" + name + ".geo' --out=-");
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_TRUE(told.out.starts_with("g\\u202ee\\ufeff.msh: n_phi ")) << told.out;
+  EXPECT_EQ(told.err.find("\u202E"), told.err.npos) << told.err;
+  EXPECT_EQ(piped.out, text_of(folder / (name + ".msh")));
+  expect_refusal("--convert=" + std::string(5000, 'n') + ".geo --out=a.msh", 1, {"nnn…"});
 }
 
 TEST_F(Command, HelpNamesTheModes) {
