@@ -138,7 +138,7 @@ TEST(Messages, ShowNamesEscapedAndCutWhereverTheyGo) {
     EXPECT_EQ(std::ranges::count(said.err, '\n'), 1) << said.err;
     for (const char* obeyed : {"\x1b", "\u202E", "\uFEFF"})
       EXPECT_EQ(said.err.find(obeyed), said.err.npos) << said.err;
-    const CommandResult cut = bench.run(option + name);
+    const CommandResult cut = bench.run(option + ("'" + name + "'"));
     EXPECT_EQ(cut.code, 2) << option;
     EXPECT_EQ(cut.err.find(std::string(401, 'n')), cut.err.npos) << cut.err;
     EXPECT_LT(cut.err.size(), 4100u) << cut.err;
