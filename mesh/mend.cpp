@@ -9,6 +9,7 @@
 
 #include "mesh/arcs.hpp"
 #include "mesh/bisection.hpp"
+#include "mesh/fault_places.hpp"
 #include "mesh/straight_sides.hpp"
 #include "mesh/supposed_curves.hpp"
 
@@ -61,9 +62,8 @@ std::optional<Misfit> misfit(const Mesh& mesh) {
 
 [[noreturn]] void refuse_curve(const Mesh& mesh, const Misfit& misfit) {
   const auto [a, b] = mesh.boundary[misfit.boundary_row].vertices;
-  throw MeshError(mesh.name + ": boundary edge " + std::to_string(a + 1) + "-" +
-                  std::to_string(b + 1) + ": its curve does not stay on its side of vertex " +
-                  std::to_string(misfit.across + 1) +
+  throw MeshError(mesh.name + ": boundary " + edge_text(mesh, a, b) +
+                  ": its curve does not stay on its side of " + vertex_text(mesh, misfit.across) +
                   " (allowed: curves within their triangle, as on a finer mesh)");
 }
 

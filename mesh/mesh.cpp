@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/fault_places.hpp"
 #include "mesh/outline.hpp"
 #include "support/wide.hpp"
 
@@ -40,10 +41,6 @@ std::vector<Side> sorted_sides(const Mesh& mesh) {
   return sides;
 }
 
-std::string edge_text(int a, int b) {
-  return "edge " + std::to_string(a + 1) + "-" + std::to_string(b + 1);
-}
-
 [[noreturn]] void fail(const Mesh& mesh, const std::string& what) {
   throw MeshError(mesh.name + ": " + what);
 }
@@ -77,14 +74,17 @@ void check_triangles(const Mesh& mesh) {
     const double twice_area = cross_area(a, b, c);
     const double longest_squared =
         std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    const auto place = [&] { return triangle_text(mesh, static_cast<int>(t)); };
     if (!(std::abs(twice_area) > flat_triangle_tolerance * longest_squared))
-      fail(mesh, name + ": zero area");
-    if (twice_area < 0) fail(mesh, name + ": inverted (its vertices must run counter-clockwise)");
+      fail(mesh, place() + (a == b || b == c || c == a ? ": two of its vertices are in one place"
+                                                       : ": zero area"));
+    if (twice_area < 0)
+      fail(mesh, place() + ": inverted (its vertices must run counter-clockwise)");
   }
   const auto unused = std::find(used.begin(), used.end(), false);
   if (unused != used.end())
-    fail(mesh,
-         "vertex " + std::to_string(unused - used.begin() + 1) + ": dangling (in no triangle)");
+    fail(mesh, vertex_text(mesh, static_cast<int>(unused - used.begin())) +
+                   ": dangling (in no triangle)");
 }
 
 // Checks the roles against the triangulation; returns the end vertex of the boundary edge that
@@ -95,48 +95,47 @@ std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t j = i + 1;
     while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
-    const std::string name = edge_text(sides[i].low, sides[i].high);
+    const auto name = [&] { return edge_text(mesh, sides[i].low, sides[i].high); };
     if (j - i > 2)
-      fail(mesh,
-           name + ": shared by " + std::to_string(j - i) + " triangles; at most two can meet");
+      fail(mesh, name() + ": shared by " + std::to_string(j - i) +
+                     " triangles; at most two can meet: elements overlap, or are given twice");
     if (j - i == 2 && sides[i].forward == sides[i + 1].forward)
-      fail(mesh, name + ": its two triangles overlap");
+      fail(mesh, name() + ": its two triangles overlap");
     if (j - i == 1) {
       const int start = sides[i].forward ? sides[i].low : sides[i].high;
       if (next[start] != -1)
-        fail(mesh, "vertex " + std::to_string(start + 1) + ": the boundary touches itself there");
+        fail(mesh, vertex_text(mesh, start) +
+                       ": the boundary touches itself there: " + why_touching(mesh, start));
       next[start] = sides[i].low + sides[i].high - start;
     }
     i = j;
   }
 
   std::vector<bool> has_role(n, false);
-  bool is_held = false;
   for (const BoundaryEdge& edge : mesh.boundary) {
     const auto [a, b] = edge.vertices;
-    const std::string name = "boundary " + edge_text(a, b);
     if (a < 0 || a >= n || b < 0 || b >= n)
-      fail(mesh, name + ": a vertex does not exist (1.." + std::to_string(n) + ")");
+      fail(mesh, "boundary edge " + std::to_string(a + 1) + "-" + std::to_string(b + 1) +
+                     ": a vertex does not exist (1.." + std::to_string(n) + ")");
+    const auto name = [&, from = a, to = b] { return "boundary " + edge_text(mesh, from, to); };
     if (next[a] != b) {
-      if (next[b] == a) fail(mesh, name + ": walked clockwise; the body must lie on its left");
-      fail(mesh, name + ": not on the boundary of the triangles");
+      if (next[b] == a) fail(mesh, name() + ": walked clockwise; the body must lie on its left");
+      fail(mesh, name() + ": not on the boundary of the triangles");
     }
-    if (has_role[a]) fail(mesh, name + ": given twice");
+    if (has_role[a]) fail(mesh, name() + ": given twice");
     has_role[a] = true;
     if (edge.group < BoundaryEdge::no_group ||
         edge.group >= static_cast<int>(mesh.boundary_groups.size()))
-      fail(mesh, name + ": group " + std::to_string(edge.group + 1) + " does not exist (1.." +
+      fail(mesh, name() + ": group " + std::to_string(edge.group + 1) + " does not exist (1.." +
                      std::to_string(mesh.boundary_groups.size()) + ")");
     if (!edge.curve.is_straight() && (edge.curve.points_mm.front() != mesh.vertices[a] ||
                                       edge.curve.points_mm.back() != mesh.vertices[b]))
-      fail(mesh, name + ": its curve does not start and end at its vertices");
-    is_held |= edge.role != BoundaryRole::force;
+      fail(mesh, name() + ": its curve does not start and end at its vertices");
   }
   for (int v = 0; v < n; ++v)
     if (next[v] != -1 && !has_role[v])
-      fail(mesh, edge_text(v, next[v]) +
+      fail(mesh, edge_text(mesh, v, next[v]) +
                      ": a boundary edge without a role (displacement, force or contact)");
-  if (!is_held) fail(mesh, "no displacement and no contact edge; something must hold the body");
   return next;
 }
 
@@ -171,12 +170,14 @@ void check_overlap(const Mesh& mesh, const std::vector<int>& next,
     outer += twice_area > 0;
   }
   if (const auto edges = where_they_meet(polygons)) {
-    const auto text = [&](const PolygonEdge& edge) {
+    const auto ends = [&](const PolygonEdge& edge) -> std::array<int, 2> {
       const int v = curves[edge.polygon][edge.corner];
-      return edge_text(v, next[v]);
+      return {v, next[v]};
     };
-    fail(mesh, "boundary " + text(edges->front()) + ": crosses or touches boundary " +
-                   text(edges->back()) + "; the body must not overlap itself");
+    const std::array<int, 2> one = ends(edges->front()), other = ends(edges->back());
+    fail(mesh, "boundary " + edge_text(mesh, one[0], one[1]) + ": crosses or touches boundary " +
+                   edge_text(mesh, other[0], other[1]) +
+                   "; the body must not overlap itself: " + why_meeting(mesh, one, other));
   }
   if (outer > 1)
     fail(mesh, std::to_string(outer) + " outer boundaries; the body must not overlap itself");

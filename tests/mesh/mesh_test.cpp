@@ -110,35 +110,32 @@ TEST(MeshValidate, NamesWhatIsWrong) {
        "triangle 3: vertex 0 does not exist (1..8)"},
       {"body out of range", [](Mesh& m) { m.triangle_body[7] = 1; },
        "triangle 8: body 2 does not exist (1..1)"},
-      {"flat", [](Mesh& m) { m.vertices[6].y() = 0; }, "triangle 1: zero area"},
-      {"numerically flat", [](Mesh& m) { m.vertices[6].y() = 1e-14; }, "triangle 1: zero area"},
+      {"flat", [](Mesh& m) { m.vertices[6].y() = 0; }, "triangle 1 at [0.5, 0]: zero area"},
+      {"numerically flat", [](Mesh& m) { m.vertices[6].y() = 1e-14; },
+       "triangle 1 at [0.5, 3.33333e-15]: zero area"},
       {"all vertices in one place",
        [](Mesh& m) { std::fill(m.vertices.begin(), m.vertices.end(), Eigen::Vector2d(1, 1)); },
-       "triangle 1: zero area"},
+       "triangle 1 at [1, 1]: two of its vertices are in one place"},
       {"inverted", [](Mesh& m) { std::swap(m.triangles[3][0], m.triangles[3][1]); },
-       "triangle 4: inverted (its vertices must run counter-clockwise)"},
+       "triangle 4 at [0.166667, 0.5]: inverted (its vertices must run counter-clockwise)"},
       {"dangling vertex", [](Mesh& m) { m.vertices.emplace_back(0.2, 0.1); },
-       "vertex 9: dangling (in no triangle)"},
+       "vertex 9 at [0.2, 0.1]: dangling (in no triangle)"},
       {"edge of three triangles", [](Mesh& m) { add_triangle(m, 0.7, 0.6, 4, 8, 1); },
-       "edge 2-5: shared by 3 triangles; at most two can meet"},
+       "edge 2-5 at [1, 0.5]: shared by 3 triangles; at most two can meet: elements overlap, or "
+       "are given twice"},
       {"overlapping triangles", [](Mesh& m) { add_triangle(m, 0.5, 2, 0, 1, 8); },
-       "edge 1-2: its two triangles overlap"},
+       "edge 1-2 at [0.5, 0]: its two triangles overlap"},
       {"boundary vertex out of range", [](Mesh& m) { m.boundary[0].vertices[1] = 8; },
        "boundary edge 1-9: a vertex does not exist (1..8)"},
       {"boundary edge clockwise",
        [](Mesh& m) { std::swap(m.boundary[2].vertices[0], m.boundary[2].vertices[1]); },
-       "boundary edge 6-3: walked clockwise; the body must lie on its left"},
+       "boundary edge 6-3 at [2, 0.5]: walked clockwise; the body must lie on its left"},
       {"boundary edge inside", [](Mesh& m) { add_edge(m, 1, 4, force); },
-       "boundary edge 2-5: not on the boundary of the triangles"},
+       "boundary edge 2-5 at [1, 0.5]: not on the boundary of the triangles"},
       {"boundary edge twice", [](Mesh& m) { add_edge(m, 1, 2, contact); },
-       "boundary edge 2-3: given twice"},
+       "boundary edge 2-3 at [1.5, 0]: given twice"},
       {"boundary edge without role", [](Mesh& m) { m.boundary.erase(m.boundary.begin() + 4); },
-       "edge 5-4: a boundary edge without a role (displacement, force or contact)"},
-      {"nothing held",
-       [](Mesh& m) {
-         for (BoundaryEdge& edge : m.boundary) edge.role = force;
-       },
-       "no displacement and no contact edge; something must hold the body"},
+       "edge 5-4 at [0.5, 1]: a boundary edge without a role (displacement, force or contact)"},
   };
   for (const auto& [name, change, expected] : cases) {
     Mesh mesh = two_squares();
@@ -163,19 +160,71 @@ TEST(MeshPieces, AreNumberedByTheirVertices) {
 
 TEST(MeshValidate, NamesWhereABoundaryTouchesItself) {
   for (const auto& [missing, n, vertex] : std::vector<std::tuple<std::set<int>, int, const char*>>{
-           {{3, 7}, 3, "10"}, {{6, 12}, 5, "15"}, {{6, 2}, 5, "9"}})
+           {{3, 7}, 3, "10 at [1, 2]"}, {{6, 12}, 5, "15 at [2, 2]"}, {{6, 2}, 5, "9 at [2, 1]"}})
     EXPECT_EQ(complaint(grid_without(missing, n)),
-              std::string("grid: vertex ") + vertex + ": the boundary touches itself there");
+              std::string("grid: vertex ") + vertex +
+                  ": the boundary touches itself there: two parts of it are merged in this point "
+                  "alone (allowed: joined along edges, or with a vertex each)");
   EXPECT_EQ(complaint(grid_without({0, 4})).find('\n'), std::string::npos);
+}
+
+// Places, since a model's user does not know the numbers; and what has probably gone wrong.
+TEST(MeshValidate, NamesTheProbableCause) {
+  using Points = std::vector<Eigen::Vector2d>;
+  using Triangles = std::vector<std::array<int, 3>>;
+  struct Case {
+    Points vertices;
+    Triangles triangles;
+    std::vector<int> bodies;
+    std::string complaint;
+  };
+  const std::string once = " (allowed: one, where elements are joined)",
+                    both = " (allowed: a vertex of the elements on both sides)";
+  for (const auto& [vertices, triangles, bodies, expected] : std::vector<Case>{
+           {{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}},
+            {{0, 1, 2}, {0, 3, 4}},
+            {0, 1},
+            "vertex 1 at [0, 0]: the boundary touches itself there: the bodies one and two are "
+            "merged in this point alone (allowed: joined along edges, or with a vertex each)"},
+           {{{0, 0}, {2, 0}, {1, 2}, {1, -1}, {1, 0}},
+            {{0, 1, 2}, {0, 3, 4}, {3, 1, 4}},
+            {0, 0, 0},
+            "vertex 1 at [0, 0]: the boundary touches itself there: vertex 5 at [1, 0] hangs on "
+            "edge 1-2 at [1, 0]" +
+                both},
+           {{{0, 0}, {2, 0}, {1, 2}, {1, -1}, {1, 0}, {-1, 0}, {3, 0}},
+            {{0, 1, 2}, {0, 3, 4}, {3, 1, 4}, {0, 2, 5}, {5, 3, 0}, {2, 1, 6}, {3, 6, 1}},
+            {0, 0, 0, 0, 0, 0, 0},
+            "boundary edge 1-2 at [1, 0]: crosses or touches boundary edge 2-5 at [1.5, 0]; the "
+            "body must not overlap itself: vertex 5 at [1, 0] hangs on edge 1-2 at [1, 0]" +
+                both},
+           {{{0, 0}, {1, 0}, {1, 1}, {2, 0}, {1, 1}},
+            {{0, 1, 2}, {1, 3, 4}},
+            {0, 0},
+            "vertex 2 at [1, 0]: the boundary touches itself there: vertices 3 and 5 are two in "
+            "one place, [1, 1]" +
+                once},
+       }) {
+    Mesh mesh;
+    mesh.name = "wrong";
+    mesh.vertices = vertices;
+    mesh.triangles = triangles;
+    testing::hold_all_around(mesh);
+    mesh.triangle_body = bodies;
+    mesh.body_names = {"one", "two"};
+    EXPECT_EQ(complaint(mesh), "wrong: " + expected);
+  }
 }
 
 TEST(MeshValidate, NamesWhatIsWrongWithAHole) {
   Mesh mesh = grid_without({4});
   mesh.vertices[5].y() = -1;  // through the outer boundary
   EXPECT_EQ(complaint(mesh),
-            "grid: triangle 1: inverted (its vertices must run counter-clockwise)");
+            "grid: triangle 1 at [0.666667, -0.333333]: inverted (its vertices must run "
+            "counter-clockwise)");
   mesh.vertices[5].y() = 0;
-  EXPECT_EQ(complaint(mesh), "grid: triangle 1: zero area");
+  EXPECT_EQ(complaint(mesh),
+            "grid: triangle 1 at [0.666667, 0]: two of its vertices are in one place");
   mesh = grid_without({4});
   for (BoundaryEdge& edge : mesh.boundary) {
     const Eigen::Vector2d middle =
@@ -183,8 +232,9 @@ TEST(MeshValidate, NamesWhatIsWrongWithAHole) {
     if ((middle - Eigen::Vector2d(1.5, 1.5)).norm() < 1)
       std::swap(edge.vertices[0], edge.vertices[1]);
   }
-  EXPECT_EQ(complaint(mesh),
-            "grid: boundary edge 10-6: walked clockwise; the body must lie on its left");
+  EXPECT_EQ(
+      complaint(mesh),
+      "grid: boundary edge 10-6 at [1, 1.5]: walked clockwise; the body must lie on its left");
 }
 
 TEST(NumberEdges, EveryEdgeOnceFromLowToHigh) {

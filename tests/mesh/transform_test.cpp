@@ -305,18 +305,5 @@ TEST(MeshLayers, ImpossibleValuesAreNamed) {
               complaint);
 }
 
-TEST(Transform, ABodyThatContactHoldsKeepsAContactEdge) {
-  Mesh mesh = small_tooth(4, 4);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::displacement) edge.role = BoundaryRole::force;
-  MeshTransform transform;
-  transform.keep_contact_edges = 1;
-  EXPECT_NO_THROW(transformed(mesh, transform));
-  transform.keep_contact_edges = 0;
-  EXPECT_EQ(testing::complaint_of<TransformError>([&] { transformed(mesh, transform); }),
-            "keep_contact_edges: 0 cannot be: small tooth: no displacement and no contact edge; "
-            "something must hold the body");
-}
-
 }  // namespace
 }  // namespace airybench::mesh_transform_test
