@@ -48,6 +48,15 @@ double largest_interference_mm(const Scene& scene, const ContactPair& pair) {
   return -least;
 }
 
+std::set<int> vertices_on_rollers(const Mesh& mesh, const Scene& scene) {
+  std::set<int> vertices;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    if (const auto values = scene.boundary.find(boundary_label(mesh, edge));
+        values != scene.boundary.end() && values->second.support == BoundaryValues::Support::normal)
+      vertices.insert(edge.vertices.begin(), edge.vertices.end());
+  return vertices;
+}
+
 class PairedEdges {
  public:
   PairedEdges(const Mesh& mesh, const ContactPair& pair, const Scene& scene,
@@ -56,7 +65,8 @@ class PairedEdges {
         pair_(pair),
         scene_(scene),
         matching_(matching),
-        interference_mm_(largest_interference_mm(scene, pair)) {}
+        interference_mm_(largest_interference_mm(scene, pair)),
+        on_rollers_(vertices_on_rollers(mesh, scene)) {}
 
   // Sets the edges of both groups; returns how many pairs there are.
   int put_into(std::vector<std::optional<MatchedEdge>>& edges, double size_mm) const {
@@ -79,9 +89,13 @@ class PairedEdges {
   }
 
  private:
+  // Next to a roller that face's own, at a right angle to it: along the roller the node can move.
   Point common_normal(int first) const {
-    return (matching_.normal[0].at(first) - matching_.normal[1].at(matching_.twin.at(first)))
-        .normalized();
+    const int second = matching_.twin.at(first);
+    const Point &own = matching_.normal[0].at(first), &other = matching_.normal[1].at(second);
+    const bool rolls = on_rollers_.contains(first), other_rolls = on_rollers_.contains(second);
+    if (rolls != other_rolls) return rolls ? own : Point(-other);
+    return (own - other).normalized();
   }
   std::string label(int row) const { return boundary_label(mesh_, mesh_.boundary[row]); }
   bool is_on(int side, int row) const {
@@ -134,6 +148,7 @@ class PairedEdges {
   const Scene& scene_;
   const FaceMatching& matching_;
   double interference_mm_;
+  std::set<int> on_rollers_;
 };
 
 void check_two_pieces(const Mesh& mesh, const ContactPair& pair,

@@ -8,7 +8,8 @@
 //
 // Points match along the normals of the first face, which turn linearly between its vertices (the
 // mean of two edges' there). The common normal n of two matched nodes is the mean of both faces'
-// own. A face's curve (Scene, `face`) has the normals of that curve. The gap is
+// own, next to a roller that of its face. A face's curve (Scene, `face`) has the normals of that
+// curve. The gap is
 //   g0 = (x_2 − x_1)·n − t_1 − t_2,   x_i + t_i n_i on the curve that face i stands for (0: itself)
 // at start, middle and end of an edge. In small displacements x_1 and x_2 transmit their forces as
 // if they were one point, with a moment error of the tangential part of their distance.

@@ -219,6 +219,49 @@ TEST(PairedFaces, HaveTheirCurveWhereTheirEdgesAre) {
       << lowered_by(3);
 }
 
+// The flat of half a pin is at a right angle to the pin, not to the hole around it.
+TEST(PairedFaces, MayMeetARollerAtARightAngle) {
+  Mesh mesh;
+  mesh.name = "pin";
+  const std::array angles = {-std::numbers::pi / 2, std::numbers::pi / 2};
+  testing::add_ring_sector(mesh, "pin", {2, 5, 9.5}, 24, "force", "contact:pin",
+                           {angles, {"displacement:flat", "displacement:flat"}});
+  const std::size_t of_pin = mesh.vertices.size();
+  for (Eigen::Vector2d& x : mesh.vertices) x.x() += 0.5;
+  testing::add_ring_sector(mesh, "lug", {10, 14}, 31, "contact:hole", "displacement:rim",
+                           {angles, {"force", "force"}});
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  scene.friction = 0;
+  scene.contacts = {{.between = {{{"contact:pin"}, {"contact:hole"}}}}};
+  scene.boundary["displacement:flat"].support = BoundaryValues::Support::normal;
+  scene.boundary["displacement:rim"].displacement_mm =
+      LinearValue<Eigen::Vector2d>{{Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0)}};
+  scene.boundary["contact:pin"].contact.face =
+      CircularWall{{0.5, 0}, 9.5, CircularWall::Bodies::inside};
+  scene.boundary["contact:hole"].contact.face =
+      CircularWall{{0, 0}, 10, CircularWall::Bodies::inside};
+  const Problem problem = pose(scene, mesh);
+  int ends = 0;
+  for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row)
+    for (const int end : {0, 1}) {
+      const int v = problem.mesh.boundary[row].vertices[end];
+      if (boundary_label(problem.mesh, problem.mesh.boundary[row]) != "contact:pin" ||
+          std::abs(problem.mesh.vertices[v].x() - 0.5) > 1e-9)
+        continue;
+      const Eigen::Vector2d n = problem.frame_at(static_cast<int>(row), end, 1).normal;
+      EXPECT_NEAR(n.x(), 0, 1e-9);
+      ++ends;
+    }
+  EXPECT_EQ(ends, 2);
+  for (std::size_t v = 0; v < of_pin; ++v) mesh.vertices[v].y() += 0.1 * (mesh.vertices[v].x() - 5);
+  scene.boundary["contact:pin"].contact.face.reset();
+  EXPECT_NE(testing::complaint_of<SceneError>([&] {
+              pose(scene, mesh);
+            }).find("a roller meets the face obliquely (allowed: at a right angle)"),
+            std::string::npos);
+}
+
 // It leaves the group, whose name the scene may still have.
 TEST(PairedFaces, AGroupThatFacesNothingMayHaveValues) {
   Scene scene = pressed(0.3);
