@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -10,12 +11,14 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "bench/commands/commands.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "solvers/base/blas_library.hpp"
 #include "support/errors.hpp"
+#include "support/lists.hpp"
 #include "support/messages.hpp"
 #include "support/this_process.hpp"
 
@@ -36,6 +39,15 @@ const std::map<std::string_view, Command> commands = {
     {"track", airybench::track_command},
 };
 
+void refuse_misspelt_command(const std::string& word) {
+  std::vector<std::string> names;
+  for (const auto& [name, command] : commands) names.emplace_back(name);
+  if (const std::string meant = airybench::perhaps(word, names);
+      !meant.empty() && !word.starts_with('-'))
+    throw airybench::UsageError(
+        fmt::format("{}: no such command{} (allowed: {})", word, meant, fmt::join(names, ", ")));
+}
+
 // If standard error is full, the exit code reports it.
 int complain(const std::string& what, int exit_code) {
   std::fprintf(stderr, "bench: %s\n", airybench::one_line(what).c_str());
@@ -53,6 +65,7 @@ int run(int argc, char** argv) {
   try {
     airybench::restart_with_better_blas_core(argv);
     const auto found = argc > 1 ? commands.find(argv[1]) : commands.end();
+    if (argc > 1 && found == commands.end()) refuse_misspelt_command(argv[1]);
     return found == commands.end() ? airybench::run_command(argc, argv)
                                    : found->second(argc - 1, argv + 1);
   } catch (const airybench::HelpRequested& help) {

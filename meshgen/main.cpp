@@ -14,6 +14,7 @@
 #include "meshgen/complaints.hpp"
 #include "support/called_as.hpp"
 #include "support/data_folder.hpp"
+#include "support/lists.hpp"
 #include "support/messages.hpp"
 #include "support/numbers.hpp"
 #include "support/sign_of_life.hpp"
@@ -233,10 +234,9 @@ int run(const CLI::App& app, const Arguments& a) {
       a.out.empty() ? std::nullopt : std::optional<std::filesystem::path>(a.out));
 }
 
-std::string valid_options(const CLI::App& app) {
-  std::string names;
-  for (const CLI::Option* option : app.get_options())
-    names += (names.empty() ? "" : ", ") + option->get_name();
+std::vector<std::string> valid_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
   return names;
 }
 
@@ -250,8 +250,15 @@ int parse_and_run(int argc, char** argv) {
     std::cout << airybench::with_commands(app.help());
     return 0;
   } catch (const CLI::ParseError& error) {
-    return airybench::complain(fmt::format("{} (valid: {})", error.what(), valid_options(app)),
-                               airybench::exit_usage);
+    const std::vector<std::string> valid = valid_options(app), unexpected = app.remaining();
+    return airybench::complain(
+        fmt::format(
+            "{}{} (valid: {})", error.what(),
+            unexpected.empty()
+                ? ""
+                : airybench::perhaps(airybench::first_item(unexpected.front(), '=').item, valid),
+            fmt::join(valid, ", ")),
+        airybench::exit_usage);
   }
   return run(app, arguments);
 }

@@ -128,8 +128,7 @@ class Giver {
       if (!curve.sides.empty())
         numbers += (numbers.empty() ? "" : ", ") + std::to_string(curve.number);
     }
-    const auto same = std::ranges::find(all, lower(key), lower);  // but for capitals
-    const std::string nearest = same != all.end() ? *same : nearest_of(key, all);
+    const std::string nearest = nearest_of(key, all);
     throw InputError(fmt::format(
         "--role: it has no physical curve '{}'{} (its physical curves: {}; its curves: {})", key,
         nearest.empty() ? "" : fmt::format(", perhaps '{}'", nearest),

@@ -9,6 +9,7 @@
 
 #include "assembly/elements/equilibrium_element.hpp"
 #include "solvers/names/general_names.hpp"
+#include "support/lists.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
@@ -124,11 +125,11 @@ static Method at_degree(const Method& method, int degree) {
 
 namespace {
 
-std::string valid_names(const std::vector<Method>& table) {
-  std::string names;
+std::vector<std::string> valid_names(const std::vector<Method>& table) {
+  std::vector<std::string> names;
   for (const Method& method : table)
     if (method.preconditioner.empty() || !is_general_name(method.name))
-      names += (names.empty() ? "" : ", ") + method.name;
+      names.push_back(method.name);
   return names;
 }
 
@@ -146,8 +147,9 @@ std::vector<Method> select_methods(std::string_view selection, const std::vector
       if (fnmatch(item.c_str(), table[i].name.c_str(), 0) == 0) selected[i] = matched = true;
     if (matched) continue;
     if (!is_general_name(item))
-      throw std::invalid_argument("no method matches '" + shortened(item) +
-                                  "' (valid: " + valid_names(table) +
+      throw std::invalid_argument("no method matches '" + shortened(item) + "'" +
+                                  perhaps(item, valid_names(table)) +
+                                  " (valid: " + joined(valid_names(table)) +
                                   ", 3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, "
                                   "ALM:r=<r>,rho=<rho>, HYBRID:k=<degree>; globs like '3STEP*')");
     more.push_back(method_of_general_name(item));

@@ -1,6 +1,7 @@
 #include "support/lists.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace airybench {
 
@@ -29,14 +30,17 @@ std::vector<std::string> split_list(std::string_view list, char separator) {
 }
 
 std::string nearest_of(std::string_view word, const std::vector<std::string>& names) {
+  const auto are_alike = [](unsigned char a, unsigned char b) {
+    return std::tolower(a) == std::tolower(b);
+  };
   const auto distance_to = [&](std::string_view name) {
     std::vector<std::size_t> before(name.size() + 1), now(before);  // Levenshtein's rows
     for (std::size_t k = 0; k <= name.size(); ++k) before[k] = k;
     for (std::size_t i = 1; i <= word.size(); ++i, before.swap(now)) {
       now[0] = i;
       for (std::size_t k = 1; k <= name.size(); ++k)
-        now[k] = std::min(
-            {before[k] + 1, now[k - 1] + 1, before[k - 1] + (word[i - 1] == name[k - 1] ? 0 : 1)});
+        now[k] = std::min({before[k] + 1, now[k - 1] + 1,
+                           before[k - 1] + (are_alike(word[i - 1], name[k - 1]) ? 0 : 1)});
     }
     return before.back();
   };
@@ -51,6 +55,11 @@ std::string nearest_of(std::string_view word, const std::vector<std::string>& na
     }
   }
   return nearest;
+}
+
+std::string perhaps(std::string_view word, const std::vector<std::string>& names) {
+  const std::string nearest = nearest_of(word, names);
+  return nearest.empty() ? "" : ", perhaps " + nearest;
 }
 
 }  // namespace airybench

@@ -30,7 +30,9 @@ struct FirstItem {
 FirstItem first_item(std::string_view list, char separator);
 
 // The name that takes the fewest letters changed, added or left out to become word, at most a third
-// of its own; empty if there is none.
+// of its own, capitals or not; empty if there is none.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& names);
+// ", perhaps NAME" with that name; empty if there is none.
+std::string perhaps(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace airybench

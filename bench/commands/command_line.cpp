@@ -62,10 +62,13 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion&) {
     throw HelpRequested(app.version() + "\n");
   } catch (const CLI::ExtrasError& error) {
-    std::string valid;
+    std::vector<std::string> valid;
     for (const CLI::Option* option : app.get_options())
-      if (option != app.get_help_ptr()) valid += option->get_name() + " ";
-    throw UsageError(fmt::format("{} (valid: {}--help)", shortened(error.what()), valid));
+      if (option != app.get_help_ptr()) valid.push_back(option->get_name());
+    valid.emplace_back("--help");
+    throw UsageError(fmt::format("{}{} (valid: {})", shortened(error.what()),
+                                 perhaps(first_item(app.remaining().front(), '=').item, valid),
+                                 fmt::join(valid, " ")));
   } catch (const CLI::ParseError& error) {
     throw UsageError(shortened(error.what(), 300));
   }

@@ -14,10 +14,9 @@ void JsonValue::object(const std::vector<JsonKey>& keys, const std::string& all)
     if (std::ranges::find(keys, name, &JsonKey::name) != keys.end()) continue;
     std::vector<std::string> names;
     for (const JsonKey& known : keys) names.push_back(known.name);
-    const std::string nearest = nearest_of(name, names);
-    throw FileError(fmt::format(
-        "{}: {}{}: unknown key{} (allowed: {})", file_, key_.empty() ? "" : shortened(key_ + ": "),
-        shortened(name), nearest.empty() ? "" : ", perhaps " + nearest, fmt::join(names, ", ")));
+    throw FileError(fmt::format("{}: {}{}: unknown key{} (allowed: {})", file_,
+                                key_.empty() ? "" : shortened(key_ + ": "), shortened(name),
+                                perhaps(name, names), fmt::join(names, ", ")));
   }
   take(keys);
   if (!all.empty() && json.size() < keys.size()) fail(all);

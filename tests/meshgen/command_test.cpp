@@ -89,6 +89,7 @@ TEST_F(Command, WrongUsageIsOneLineAndExitCode2) {
   expect_refusal("", 2, {"--mesh, --check, --tooth, --convert"});
   expect_refusal("--check --mesh=Mesh0", 2, {"--mesh, --check, --tooth, --convert"});
   expect_refusal("--fancy", 2, {"--fancy", "valid:", "--mesh", "--convert"});
+  expect_refusal("--convrt=a.geo", 2, {"--convrt=a.geo, perhaps --convert (valid: "});
   expect_refusal("Mesh0", 2, {"Mesh0", "valid:", "--mesh"});
   expect_refusal("--mesh", 2, {"--mesh", "valid:"});
   expect_refusal("--mesh=Mesh8", 2, {"'Mesh8'", "valid: Mesh0..Mesh7"});

@@ -69,7 +69,7 @@ TEST(Methods, SelectionByNamesAndGlobs) {
   for (const Method& method : methods())
     if (method.preconditioner.empty() || !is_general_name(method.name)) valid += method.name + ", ";
   EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { select_methods("3STEPD,4STEP"); }),
-            "no method matches '4STEP' (valid: " + valid +
+            "no method matches '4STEP', perhaps 3STEPD (valid: " + valid +
                 "3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, ALM:r=<r>,rho=<rho>, "
                 "HYBRID:k=<degree>; globs like '3STEP*')");
   EXPECT_NE(valid.find("HYBRID:CG, "), valid.npos);
