@@ -71,24 +71,24 @@ void check_curves(const PlaneModel& model) {
         fail(fmt::format("physical curve '{}' has an edge that touches no triangle", curve.label));
       fail(
           fmt::format("physical curve '{}': edge from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) is not "
-                      "on the body's boundary",
+                      "on the body's boundary but inside it (allowed: a role on curves of the "
+                      "boundary; a hole, or bodies that this line parts and contacts join, make "
+                      "one there)",
                       curve.label, a->second.x(), a->second.y(), b->second.x(), b->second.y()));
     }
   }
 }
 
-// By a displacement, or by contact alone, unless there are names that may have meant one.
-void check_is_held(const PlaneModel& model) {
+// By a displacement or by contact; else by points of the scene, if all curves are given a role.
+void check_is_held(const PlaneModel& model, const ModelOptions& options) {
+  if (options.roles.contains("rest")) return;
   std::set<std::string> others;
-  bool in_contact = false;
   for (const ModelCurve& curve : model.curves) {
     const BoundaryRole role = parse_boundary_label(curve.label)->role;
-    if (!curve.sides.empty() && role == BoundaryRole::displacement) return;
-    in_contact |= !curve.sides.empty() && role == BoundaryRole::contact;
+    if (!curve.sides.empty() && role != BoundaryRole::force) return;
     for (const std::string& name : curve.names)
       if (!parse_boundary_label(name) && curve.is_unnamed_role) others.insert("'" + name + "'");
   }
-  if (in_contact && others.empty()) return;
   fail(fmt::format(
       "no edges in a physical curve named displacement{}; --role=NUMBER=displacement "
       "holds one of its curves:\n{}",
@@ -218,7 +218,7 @@ ConvertedModel convert_model(const std::filesystem::path& file, const ModelOptio
     check_pieces(model);
     refuse_misspelt_roles(model);
     check_curves(model);
-    check_is_held(model);
+    check_is_held(model, options);
     mesh = mesh_of(model);
   } catch (const InputError& complaint) {
     throw MeshError(file.string() + ": " + complaint.what());

@@ -393,7 +393,7 @@ TEST_F(Convert, RefusesWhatIsWrongWithAModelInOneLine) {
        "force, "
        "contact, or one of these with a name: force:top; or --role=Displacement=ROLE)"},
       {"role_inside.geo", with_roles("contact\") = {7", "contact\") = {4, 7"),
-       "physical curve 'contact': edge from (1, ", " is not on the body's boundary"},
+       "physical curve 'contact': edge from (1, ", " is not on the body's boundary but inside it"},
       {"two_roles.geo", with_roles("contact\") = {7", "contact\") = {6, 7"),
        "curve 6: its roles are force and contact; one is allowed"},
       {"two_bodies.geo",
@@ -413,7 +413,9 @@ TEST_F(Convert, RefusesWhatIsWrongWithAModelInOneLine) {
       {"filled_hole.geo",
        two_loops("1") + "Plane Surface(1) = {1, 2}; Plane Surface(2) = {2};\n" +
            "Physical Surface(\"plug\") = {2};\n",
-       "physical curve 'force:hole': edge from (1, 1) to (2, 1) is not on the body's boundary"},
+       "physical curve 'force:hole': edge from (1, 1) to (2, 1) is not on the body's boundary "
+       "but inside it (allowed: a role on curves of the boundary; a hole, or bodies that this line "
+       "parts and contacts join, make one there)"},
       {"broken.geo", "Point(1) = {0, 0, 0};\nfoo bar;\n", "Gmsh: ", "line 2"},
       {"truncated.msh", plate_msh4.substr(0, plate_msh4.find("0 3 0 1")),
        "Gmsh: Could not read nodes"},

@@ -352,7 +352,7 @@ TEST_F(ModelRuns, EndsByNamingTheFilesOfAPathOfLoadSteps) {
 }
 
 TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {
-  const testing::CommandResult free = run("--mesh=part.geo --out=refused");
+  const testing::CommandResult free = run("--mesh=part.geo --role=contact=force --out=refused");
   EXPECT_EQ(free.code, 2);
   EXPECT_EQ(
       free.err,
@@ -360,7 +360,7 @@ TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {
       "'clamped'; --role gives them one); --role=NUMBER=displacement holds one of its curves:\n"
       "  curve  names    role     length mm  from    by        to\n"
       "  1      force    force    1          (0, 0)  (0.5, 0)  (1, 0)\n"
-      "  2      contact  contact  1          (1, 0)  (1, 0.5)  (1, 1)\n"
+      "  2      contact  force    1          (1, 0)  (1, 0.5)  (1, 1)\n"
       "  3      force    force    1          (1, 1)  (0.5, 1)  (0, 1)\n"
       "  4      clamped  force    1          (0, 1)  (0, 0.5)  (0, 0)\n");
   expect_refusal("--mesh=nowhere.geo", "nowhere.geo: cannot be opened: No such file or directory");
