@@ -17,6 +17,7 @@ namespace {
 constexpr double parallel = 1e-8;
 constexpr double alike = 1e-6;           // velocities, relatively
 constexpr double load_rounding = 1e-11;  // of the force that loads could make
+constexpr double input_rounding = 1e-7;
 
 // l_m = ∫ b·N_m + ∫_{Γ_F} f·N_m, N.
 Eigen::VectorXd loads_on_motions(const Problem& problem, int degree) {
@@ -124,7 +125,10 @@ RigidContact rigid_contact(const Problem& problem, int degree) {
     contact.bodies.push_back(
         name_of_piece(problem.mesh, problem.free.piece_of_vertex, motion.piece));
   contact.loads_N = loads_on_motions(problem, degree);
-  contact.rounding_N = load_rounding * load_scale(problem).force_N;
+  const double force_N = load_scale(problem).force_N;
+  contact.rounding_N = load_rounding * force_N;
+  contact.rounding_on_points_N = input_rounding * force_N;
+  contact.points = held_points(problem);
   std::vector<EndRow> rows;
   std::vector<char> seen(problem.mesh.boundary.size());  // edges, or the ones opposite
   int face = 0;
@@ -188,7 +192,12 @@ std::string words_of_direction(const Eigen::Vector2d& v) {
 std::string words_of_place(const Eigen::Vector2d& x) { return words(x, 4); }
 
 std::string words_of_open_motions(const RigidContact& contact) {
-  const Eigen::MatrixXd open = motion_spaces(contact).open;
+  Eigen::MatrixXd open = motion_spaces(contact).open;
+  if (const auto held = std::ssize(contact.points.rows); held > 0 && open.cols() > 0) {
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(contact.points.of_motions * open,
+                                                Eigen::ComputeFullV);
+    open *= svd.matrixV().rightCols(std::max<Eigen::Index>(open.cols() - held, 0)).eval();
+  }
   if (open.cols() == 0) return "";
   std::string named;
   for (Eigen::Index first = 0, count = 0; first < open.rows(); first += count) {

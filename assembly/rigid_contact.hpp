@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "assembly/problem/held_points.hpp"
 #include "assembly/problem/problem.hpp"
 
 namespace airybench {
@@ -31,6 +32,8 @@ struct RigidContact {
   std::vector<End> ends;               // those that resist a motion; of a pair one
   Eigen::MatrixXd normal, tangential;  // N, ends × motions
   double rounding_N = 0;               // of l
+  double rounding_on_points_N = 0;     // the same of loads that balance in the digits of an input
+  HeldPoints points;
 
   // Of loads that need no contact: rounding_N, and 1e-9 of the largest.
   double negligible_N() const;
@@ -51,7 +54,8 @@ MotionSpaces motion_spaces(const RigidContact& contact);
 // "(2, 0)"; "along (0.6, 0.8)".
 std::string words_of_place(const Eigen::Vector2d& x);
 std::string words_of_direction(const Eigen::Vector2d& v);
-// "no contact resists, and no load moves, the body up along (1, 0)"; empty: there is none.
+// "no contact resists, and no load moves, the body up along (1, 0)"; empty: there is none, or
+// points hold them.
 std::string words_of_open_motions(const RigidContact& contact);
 
 // Pieces that move alike, as one rigid body.

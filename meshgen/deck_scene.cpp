@@ -37,7 +37,7 @@ class SceneReader {
   }
 
   DeckScene read() {
-    check_supports();
+    read_supports();
     for (std::size_t step = 0; step < states_.size(); ++step) take_forces(step);
     DeckScene scene;
     label_edges();
@@ -99,29 +99,34 @@ class SceneReader {
     return held;
   }
 
-  // The same nodes in every step, each of a side that is held so.
-  void check_supports() const {
-    for (const StepState& state : states_) {
+  // The same nodes in every step. Those of no side that is held so are points.
+  void read_supports() {
+    for (const StepState& state : states_)
       if (!std::ranges::equal(state.held, states_.front().held, [](const auto& a, const auto& b) {
             return a.first == b.first && a.second[0].has_value() == b.second[0].has_value() &&
                    a.second[1].has_value() == b.second[1].has_value();
           }))
         throw InputError("*BOUNDARY: supports differ between steps (allowed: values only)");
-      for (const auto& [node, held] : state.held) {
-        const auto edges = edges_of_.find(node);
-        for (std::size_t k = 0; k < 2; ++k) {
-          if (!held[k]) continue;
-          const bool is_on_side =
-              edges != edges_of_.end() && std::ranges::any_of(edges->second, [&](const auto& edge) {
-                return held_on(state, edge)[k].has_value();
-              });
-          if (!is_on_side)
-            throw InputError(fmt::format(
-                "*BOUNDARY: {}: {} is held in this node alone, where stress is infinite (allowed: "
-                "sides of the boundary, all of whose nodes are held)",
-                deck_.shown(node), k == 0 ? "x" : "y"));
-        }
+    for (const auto& [node, held] : states_.front().held) {
+      const auto edges = edges_of_.find(node);
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto is_held = [&](const auto& edge) {
+          return held_on(states_.front(), edge)[k].has_value();
+        };
+        if (held[k] && (edges == edges_of_.end() || std::ranges::none_of(edges->second, is_held)))
+          points_[node][k] = held[k];
       }
+    }
+    for (const auto& [node, held] : points_) {
+      for (const StepState& state : states_)
+        if (state.held.at(node) != states_.front().held.at(node))
+          throw InputError(fmt::format(
+              "*BOUNDARY: {} is held in this node alone, and moved differently in the steps "
+              "(allowed: the same in all)",
+              deck_.shown(node)));
+      properties_.notes.push_back(
+          fmt::format("*BOUNDARY: {} is held alone: it takes out a rigid motion, and no force",
+                      deck_.shown(node)));
     }
   }
 
@@ -316,31 +321,27 @@ class SceneReader {
   }
 
   Json body_force(std::size_t step) const {
-    Eigen::Vector2d force = Eigen::Vector2d::Zero();
-    if (!states_[step].gravity.empty()) {
-      std::map<std::string, Eigen::Vector2d> of_body;
-      for (const auto& [set, acceleration] : states_[step].gravity) {
-        const auto members = deck_.element_sets.find(set);
-        if (members == deck_.element_sets.end())
-          throw InputError(fmt::format("GRAV: {}: no such set", set));
-        std::set<long> with(members->second.begin(), members->second.end());
-        for (const auto& [body, material] : properties_.materials) {
-          if (!std::ranges::all_of(deck_.element_sets.at(body),
-                                   [&](long e) { return with.contains(e); }))
-            continue;
-          if (!material.density)
-            throw InputError(fmt::format("GRAV: the material of {} has no *DENSITY", body));
-          of_body.emplace(body, Eigen::Vector2d::Zero()).first->second +=
-              *material.density * acceleration;
-        }
-      }
-      force = of_body.empty() ? force : of_body.begin()->second;
-      for (const auto& [body, material] : properties_.materials)
-        if (!of_body.contains(body) || of_body.at(body) != force)
-          throw InputError(
-              "GRAV: bodies of different weight per volume (allowed: the same in all)");
-    }
+    const Eigen::Vector2d force = weight_N_per_mm3(deck_, properties_, states_[step]);
     return {force.x(), force.y()};
+  }
+
+  Json points() const {
+    Json points = Json::array();
+    for (const auto& [node, held] : points_) {
+      Json displacement = {nullptr, nullptr};
+      for (std::size_t k = 0; k < 2; ++k)
+        if (held[k]) displacement[k] = *held[k];
+      points.push_back({{"at_mm", {place(node).x(), place(node).y()}},
+                        {"displacement_mm", displacement},
+                        {"body", body_at(node)}});
+    }
+    return points;
+  }
+
+  std::string body_at(long node) const {
+    for (const auto& [number, body] : deck_.body)
+      if (std::ranges::count(deck_.elements.at(number).nodes, node) > 0) return body;
+    throw InputError(fmt::format("*BOUNDARY: {} is of no element", deck_.shown(node)));
   }
 
   Json json(const std::map<DeckEdge, int>& curve) const {
@@ -367,6 +368,7 @@ class SceneReader {
       if (held[0] || held[1]) boundary[label]["support"] = held[0] && held[1] ? "full" : "normal";
     }
     if (!boundary.empty()) scene["boundary"] = boundary;
+    if (!points_.empty()) scene["point_supports"] = points();
     for (const DeckPair& pair : properties_.pairs)
       scene["contacts"].push_back(
           {{"between", {"contact:" + pair.faces[0], "contact:" + pair.faces[1]}},
@@ -388,6 +390,7 @@ class SceneReader {
   const std::vector<StepState> states_;
   std::map<long, std::vector<DeckEdge>> edges_of_;  // of the boundary, by their nodes
   std::map<std::size_t, std::map<DeckEdge, Eigen::Vector2d>> traction_;  // of *CLOAD, per step
+  std::map<long, Held> points_;                                          // by their nodes
   std::set<long> noted_;  // where chains of *CLOAD begin
   std::map<DeckEdge, std::string> label_;
   std::map<std::string, DeckEdge> example_;  // an edge of each label

@@ -230,4 +230,29 @@ class StepReader {
 
 std::vector<StepState> read_steps(const Deck& deck) { return StepReader(deck).read(); }
 
+Eigen::Vector2d weight_N_per_mm3(const Deck& deck, const DeckProperties& properties,
+                                 const StepState& state) {
+  if (state.gravity.empty()) return Eigen::Vector2d::Zero();
+  std::map<std::string, Eigen::Vector2d> of_body;
+  for (const auto& [set, acceleration] : state.gravity) {
+    const auto members = deck.element_sets.find(set);
+    if (members == deck.element_sets.end())
+      throw InputError(fmt::format("GRAV: {}: no such set", set));
+    const std::set<long> with(members->second.begin(), members->second.end());
+    for (const auto& [body, material] : properties.materials) {
+      if (!std::ranges::all_of(deck.element_sets.at(body),
+                               [&](long e) { return with.contains(e); }))
+        continue;
+      if (!material.density)
+        throw InputError(fmt::format("GRAV: the material of {} has no *DENSITY", body));
+      of_body.emplace(body, Eigen::Vector2d::Zero()).first->second +=
+          *material.density * acceleration;
+    }
+  }
+  for (const auto& [body, material] : properties.materials)
+    if (!of_body.contains(body) || of_body.at(body) != of_body.begin()->second)
+      throw InputError("GRAV: bodies of different weight per volume (allowed: the same in all)");
+  return of_body.begin()->second;
+}
+
 }  // namespace airybench

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "meshgen/deck.hpp"
+#include "meshgen/deck_properties.hpp"
 
 namespace airybench {
 
@@ -29,5 +30,9 @@ struct StepState {
 
 // One at least. Loads grow evenly in each step. Throws InputError: line, what is wrong.
 std::vector<StepState> read_steps(const Deck& deck);
+
+// Of GRAV, the same in all bodies.
+Eigen::Vector2d weight_N_per_mm3(const Deck& deck, const DeckProperties& properties,
+                                 const StepState& state);
 
 }  // namespace airybench

@@ -67,7 +67,7 @@ void check(const std::string& label, const ContactValues& given) {
 // Refuses rollers of a piece that are all parallel, as an edge holds the rotation and one
 // translation only, where no contact edge may hold it. pose() refuses pieces without any support.
 void check_held(const PieceSupport& support) {
-  if (!support.is_free || support.in_contact || !support.along) return;
+  if (!support.is_free || support.in_contact || support.has_points || !support.along) return;
   Eigen::Vector2d along = *support.along;
   if (along.x() < -straight_roller || (along.x() < straight_roller && along.y() < 0)) along *= -1;
   const auto tidy = [](double x) { return std::abs(x) < straight_roller ? 0 : x; };
@@ -164,7 +164,7 @@ void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displace
       return Eigen::Vector2d::Zero();
     };
   if (!rolling) return;
-  for (const PieceSupport& support : supports_of(mesh, rollers, pieces_of(mesh)))
+  for (const PieceSupport& support : supports_of(mesh, rollers, loads.points, pieces_of(mesh)))
     check_held(support);
   loads.rollers = std::move(rollers);
 }

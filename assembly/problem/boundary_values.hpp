@@ -53,9 +53,9 @@ void check_values(const BoundaryConditions& conditions);
 // Refuses groups that the mesh lacks.
 void check_labels(const BoundaryConditions& conditions, const Mesh& mesh);
 
-// Sets u0, f and rollers of `loads`. displacement_mm: for displacement edges without a value.
-// Refuses supports of a piece without contact edges that leave a rigid motion free, and
-// displacements that jump where two displacement edges meet.
+// Sets u0, f and rollers of `loads`, which has its point supports. displacement_mm: for
+// displacement edges without a value. Refuses supports of a piece without contact edges that leave
+// a rigid motion free, and displacements that jump where two displacement edges meet.
 void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displacement_mm,
            const Mesh& mesh, Loads& loads);
 

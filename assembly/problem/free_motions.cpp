@@ -78,8 +78,12 @@ void add_pins(const Mesh& mesh, const std::vector<int>& rows, const PieceSupport
 }  // namespace
 
 std::vector<PieceSupport> supports_of(const Mesh& mesh, const std::vector<bool>& rollers,
+                                      const std::vector<PointSupport>& points,
                                       const MeshPieces& pieces) {
   std::vector<PieceSupport> supports(static_cast<std::size_t>(pieces.count));
+  for (const PointSupport& point : points)
+    if (const auto place = place_in_mesh(mesh, point))
+      supports[pieces.of_vertex[mesh.triangles[place->triangle][0]]].has_points = true;
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
     const auto [a, b] = mesh.boundary[row].vertices;
     PieceSupport& own = supports[pieces.of_vertex[a]];
@@ -111,16 +115,14 @@ bool FreeMotions::pins_down(int row, int end, int component) const {
 }
 
 FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
-                         const MeshPieces& pieces) {
+                         const std::vector<PointSupport>& points, const MeshPieces& pieces) {
   FreeMotions result;
-  const std::vector<PieceSupport> supports = supports_of(mesh, rollers, pieces);
-  const auto is_free = [](const PieceSupport& own) { return own.is_free && own.in_contact; };
+  const std::vector<PieceSupport> supports = supports_of(mesh, rollers, points, pieces);
+  const auto is_free = [](const PieceSupport& own) {
+    return own.is_free && (own.in_contact || own.has_points);
+  };
   if (std::ranges::none_of(supports, is_free)) return result;
   result.piece_of_vertex = pieces.of_vertex;
-  std::vector<bool> of_another_role(mesh.vertices.size(), false);
-  for (const BoundaryEdge& edge : mesh.boundary)
-    if (edge.role != BoundaryRole::force)
-      for (const int v : edge.vertices) of_another_role[v] = true;
   for (int piece = 0; piece < pieces.count; ++piece) {
     const PieceSupport& own = supports[piece];
     if (!is_free(own)) continue;
@@ -130,8 +132,7 @@ FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
     std::vector<int> rows;
     for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
       if (const BoundaryEdge& edge = mesh.boundary[row];
-          edge.role == BoundaryRole::force && !of_another_role[edge.vertices[0]] &&
-          pieces.of_vertex[edge.vertices[0]] == piece)
+          edge.role == BoundaryRole::force && pieces.of_vertex[edge.vertices[0]] == piece)
         rows.push_back(row);
     add_pins(mesh, rows, own, area.centroid, result.pins);
   }

@@ -1,4 +1,5 @@
-// Rigid motions of pieces of a mesh that no displacement edge holds: contact alone does.
+// Rigid motions of pieces of a mesh that no displacement edge holds: contact does, or their loads
+// balance and point supports (point_supports.hpp) take the motion out.
 //
 //   u = w + ρ + Σ_m a_m N_m   on such a piece, a_m in mm
 //
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "assembly/problem/point_supports.hpp"
 #include "assembly/problem/rigid_motion.hpp"
 #include "mesh/mesh.hpp"
 
@@ -19,11 +21,12 @@ namespace airybench {
 // What the displacement edges of a piece leave free: nothing, the motion along parallel rollers, or
 // without such edges all motions.
 struct PieceSupport {
-  bool is_free = true, in_contact = false;
+  bool is_free = true, in_contact = false, has_points = false;
   std::optional<Eigen::Vector2d> along;  // of parallel rollers
 };
 // Per piece. rollers: per row of Mesh::boundary; empty: none.
 std::vector<PieceSupport> supports_of(const Mesh& mesh, const std::vector<bool>& rollers,
+                                      const std::vector<PointSupport>& points,
                                       const MeshPieces& pieces);
 
 // Motions of a piece do not accelerate one another: translations, and the turn about its centroid,
@@ -34,8 +37,8 @@ struct FreeMotion {
   double area_mm2;
 };
 
-// w has no such component at the start of a force edge, a row of Mesh::boundary: in moments the
-// edge's first.
+// w has no such component on a force edge, a row of Mesh::boundary: of moments the edge's first, of
+// displacements the first coefficient within the edge, which no other edge shares.
 struct Pin {
   int row, component;
 };
@@ -53,10 +56,10 @@ struct FreeMotions {
   bool pins_down(int row, int end, int component) const;
 };
 
-// Of pieces with contact edges: all three, or the one that parallel rollers leave. A pin is at no
-// vertex of another role.
+// Of pieces with contact edges or point supports: all three, or the one that parallel rollers
+// leave.
 FreeMotions free_motions(const Mesh& mesh, const std::vector<bool>& rollers,
-                         const MeshPieces& pieces);
+                         const std::vector<PointSupport>& points, const MeshPieces& pieces);
 
 // "the piece at the vertex [0, 0]".
 std::string place_of_piece(const Mesh& mesh, const std::vector<int>& piece_of_vertex, int piece);

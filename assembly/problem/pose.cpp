@@ -8,6 +8,7 @@
 
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/problem/contact_conditions.hpp"
+#include "assembly/problem/held_points.hpp"
 #include "assembly/problem/load_scale.hpp"
 #include "assembly/problem/scene_errors.hpp"
 #include "support/lists.hpp"
@@ -128,6 +129,14 @@ void check_pieces(const Scene& scene, const ReachableContact& contact) {
        "Coherence or BooleanFragments joins surfaces that touch)");
 }
 
+void check_is_held(const Scene& scene, const Mesh& mesh) {
+  if (scene.point_supports.empty() &&
+      std::ranges::all_of(
+          mesh.boundary, [](const BoundaryEdge& edge) { return edge.role == BoundaryRole::force; }))
+    fail(scene, "mesh " + mesh.name, "no displacement and no contact edge",
+         "(allowed: one at least, or point_supports where loads balance)");
+}
+
 // Pins need force edges (free_motions.hpp).
 void check_pins(const Scene& scene, const Problem& problem) {
   const auto& [motions, pins, piece_of_vertex, amounts] = problem.free;
@@ -138,8 +147,7 @@ void check_pins(const Scene& scene, const Problem& problem) {
     if (std::ranges::count(pins, motion.piece, piece_of) == 0)
       fail(scene, "mesh " + problem.mesh.name,
            name_of_piece(problem.mesh, piece_of_vertex, motion.piece),
-           "is held by contact alone and has no force edges away from it (allowed: two of them, or "
-           "displacement edges)");
+           "has neither two force edges nor displacement edges (allowed: either)");
 }
 
 // Displacement methods have one direction at a node: along the roller, and of the contact law.
@@ -236,6 +244,9 @@ void scale(std::optional<LinearValue<Value>>& value, double part) {
 Scene part_of(Scene scene, double part) {
   scene.displacement_mm *= part;
   scene.body_force_N_per_mm3 *= part;
+  for (PointSupport& point : scene.point_supports)
+    for (std::optional<double>& displacement : point.displacement_mm)
+      if (displacement) *displacement *= part;
   for (auto& [label, values] : scene.boundary) {
     scale(values.traction_MPa, part);
     scale(values.pressure_MPa, part);
@@ -247,6 +258,7 @@ Scene part_of(Scene scene, double part) {
 Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh,
                const ContactGap& gap) {
   Loads loads;
+  loads.points = scene.point_supports;
   of_scene(scene, prefix + "boundary",
            [&] { apply(scene.boundary, scene.displacement_mm, mesh, loads); });
   loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
@@ -314,6 +326,8 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   Mesh& mesh = contact.mesh;
   check_geometry(scene, mesh, faces_at_walls(scene, contact));
   check_pieces(scene, contact);
+  check_is_held(scene, mesh);
+  check_point_supports(scene, mesh);
 
   std::vector<Loads> steps = loads_of_steps(scene, contact);
   std::vector<Eigen::Matrix3d> by_body;
@@ -336,6 +350,7 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   find_round_sides(problem);
   check_rollers_at_pairs(scene, problem);
   check_pins(scene, problem);
+  check_point_supports(scene, problem);
   problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),
                              std::make_move_iterator(steps.end()));
   check_scale(scene, problem);

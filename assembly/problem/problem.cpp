@@ -206,7 +206,7 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
   take_out_rigid_motion(problem);
 
   const MeshPieces pieces = pieces_of(problem.mesh);
-  problem.free = free_motions(problem.mesh, problem.loads.rollers, pieces);
+  problem.free = free_motions(problem.mesh, problem.loads.rollers, problem.loads.points, pieces);
   problem.central_vertices = central_vertices(problem, pieces);
   find_round_sides(problem);
   return problem;

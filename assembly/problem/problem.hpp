@@ -50,6 +50,7 @@ struct Loads {
       gap_mm;                           // g0 on Γ_C, quadratic on every edge
   std::vector<WallDetail> wall_detail;  // what gap_mm omits, per row; empty: nothing
   std::vector<bool> rollers;  // per row of Mesh::boundary: rolling edges of Γ_D; empty: none
+  std::vector<PointSupport> points;  // of u, not w; forces are zero there
   // u_t on Γ_C from which slip is measured, that of the previous load step. Per row of
   // Mesh::boundary a column of Bernstein coefficients, from the start of the edge's walk to its
   // end; empty: zero.

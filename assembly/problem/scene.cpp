@@ -138,6 +138,12 @@ void check_values(const Scene& scene) {
   of_scene(scene, "", [&] { check_curve("face", scene.face); });
   check_contacts(scene);
   check_faces(scene);
+  for (const PointSupport& point : scene.point_supports)
+    for (const double number :
+         {point.at_mm.x(), point.at_mm.y(), point.displacement_mm[0].value_or(0),
+          point.displacement_mm[1].value_or(0)})
+      if (!std::isfinite(number))
+        fail(scene, "point_supports", number, "(allowed: finite numbers)");
   check_loads(scene, "", scene.boundary, scene.clearance_mm, scene.displacement_mm,
               scene.body_force_N_per_mm3);
   check_steps(scene);

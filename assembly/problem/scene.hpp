@@ -66,6 +66,7 @@ struct Scene {
   double clearance_mm = 0;                          // added to the gap, ≥ 0
   Eigen::Vector2d displacement_mm = {0.02, 0.006};  // of Γ_D
   BoundaryConditions boundary = {};                 // groups with their own values
+  std::vector<PointSupport> point_supports = {};    // take out rigid motions that are left free
   std::vector<ContactPair> contacts = {};           // their groups meet no wall
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};
 

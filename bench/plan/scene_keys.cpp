@@ -94,6 +94,27 @@ static void read(const JsonValue& value, BoundaryConditions& conditions) {
   });
 }
 
+static void read(const JsonValue& value, PointSupport& point) {
+  bool is_placed = false;
+  value.object(
+      {{"at_mm",
+        [&](const JsonValue& at) {
+          read(at, point.at_mm);
+          is_placed = true;
+        }},
+       {"displacement_mm",
+        [&](const JsonValue& both) {
+          const Json& json = both.json;
+          const auto is_component = [](const Json& x) { return x.is_number() || x.is_null(); };
+          if (!json.is_array() || json.size() != 2 || !std::ranges::all_of(json, is_component))
+            both.fail("two of numbers and null, [x, y]");
+          for (std::size_t k = 0; k < 2; ++k)
+            if (!json[k].is_null()) point.displacement_mm[k] = json[k].get<double>();
+        }},
+       key("body", point.body)});
+  if (!is_placed) value.fail("an object with at_mm, [x, y], and displacement_mm");
+}
+
 static void read(const JsonValue& value, Grading& grading) {
   value.object({key("at_mm", grading.at_mm), key("ratio", grading.ratio)},
                "{\"at_mm\": [x, y], \"ratio\": ...}, both given");
@@ -233,6 +254,8 @@ void read(const JsonValue& value, SceneFile& file) {
                  });
         }},
        key("boundary", scene.boundary),
+       list("point_supports", scene.point_supports, PointSupport(),
+            "a list of points {\"at_mm\": [x, y], \"displacement_mm\": [..., ...]}"),
        pairs("contacts", scene.contacts),
        {"roles", [&](const JsonValue& v) { read_roles(v, file); }},
        {"length_unit", [&](const JsonValue& v) { read_length_unit(v, file); }},

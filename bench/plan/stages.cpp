@@ -40,8 +40,8 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
     return external ? "bodies in contact with each other: its declaration does not say joins_bodies"
                     : "bodies in contact with each other: its active sets hold edges at walls only";
   if (!body->free.motions.empty() && (external || !method.condenses_contact()))
-    return "a body that contact alone holds: its motion is found by methods of ours that condense "
-           "on the contact points";
+    return "a body that contact or points alone hold: its motion is found by methods of ours that "
+           "condense on the contact points";
   const std::string why = why_no_blocks(*body, method.blocks);
   if (why.empty()) return why;
   std::vector<std::string> others;

@@ -70,6 +70,7 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
                              const std::function<SaddleVector(const Eigen::VectorXd& F_C)>& recover,
                              const BodySolve& solve, Refine refine, Solution& solution,
                              std::shared_ptr<const void> owner) {
+  if (system.n_c() == 0) condensed.points = system.contact;  // its free motions
   const SaddleSolve solve_here = [&](SaddleVector& v) { solve(system, v); };
   SaddleVector answer;
   finish(

@@ -64,7 +64,10 @@ void solve_condensed_contact(const contact::Problem& problem, const RunControl& 
                              Solution& solution) {
   solution.status = Status::ok;
   solution.message.clear();
-  if (problem.points.size() == 0) return;
+  if (problem.points.size() == 0) {
+    if (!problem.points.free.is_empty()) refuse_loads_on_open_motions(*problem.points.free.rigid);
+    return;
+  }
   const StageTimer timer(solution.times, Stage::contact);
   const OwnerScope scope(MemoryOwner::condensed);
   ContactOptions options = control.contact;

@@ -1,7 +1,9 @@
 #include "solvers/contact/free_bodies.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -29,7 +31,42 @@ struct Unbalanced {
   throw Breakdown(why_not_held(*free.rigid, free.edge_reach, left_N));
 }
 
+std::string words_of_forces(const HeldPoints& points, const Eigen::VectorXd& forces_N) {
+  std::string words;
+  for (Eigen::Index k = 0; k < forces_N.size(); ++k) {
+    if (std::abs(forces_N(k)) <= 1e-6 * forces_N.lpNorm<Eigen::Infinity>()) continue;
+    std::ostringstream force;
+    force.precision(4);
+    force << (words.empty() ? "" : ", ") << forces_N(k) << " N in "
+          << (points.rows[k].component == 0 ? "x" : "y") << " at "
+          << words_of_place(points.rows[k].at_mm);
+    words += force.str();
+  }
+  return words;
+}
+
 }  // namespace
+
+void refuse_loads_on_open_motions(const RigidContact& rigid) {
+  constexpr const char* why = ", and the stress of a force in a point is infinite";
+  const HeldPoints& points = rigid.points;
+  const Eigen::MatrixXd open = motion_spaces(rigid).open;
+  const Eigen::MatrixXd held = points.of_motions * open;
+  if (!are_independent(held))
+    throw Breakdown("the point support at " + words_of_place(points.rows.front().at_mm) +
+                    " holds what contact holds: it would carry a force" + why);
+  if (open.cols() == 0) return;
+  const Eigen::VectorXd loads_N = open.transpose() * rigid.loads_N;
+  if (loads_N.norm() <= rigid.negligible_N()) return;
+  Eigen::VectorXd forces_N(held.rows());
+  if (held.rows() > 0)
+    forces_N = held.transpose().completeOrthogonalDecomposition().solve(-loads_N);
+  if ((loads_N + held.transpose() * forces_N).norm() > rigid.negligible_N())
+    throw Breakdown(why_not_held(rigid, 0, {}));
+  if (forces_N.lpNorm<Eigen::Infinity>() > rigid.rounding_on_points_N)
+    throw Breakdown("loads do not balance: point supports would carry " +
+                    words_of_forces(points, forces_N) + why);
+}
 
 ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
                                      const Deadline& deadline) {
@@ -41,8 +78,7 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
   const FreeBodies& free = problem.points.free;
   const RigidContact& rigid = *free.rigid;
   const auto [open, resisted] = motion_spaces(rigid);
-  if (open.cols() > 0 && (open.transpose() * rigid.loads_N).norm() > rigid.negligible_N())
-    throw_not_held(free, {});
+  refuse_loads_on_open_motions(rigid);
   const Eigen::MatrixXd N = free.motions * resisted;
   const Eigen::VectorXd l = resisted.transpose() * rigid.loads_N;
   contact::Problem held = problem;
@@ -109,7 +145,9 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
 double unbalanced_share(const FreeBodies& free, const Eigen::VectorXd& F) {
   if (free.is_empty()) return 0;
   const RigidContact& rigid = *free.rigid;
-  return Unbalanced(free.motions, rigid.loads_N, F, rigid.rounding_N).relative;
+  const double rounding_N =
+      rigid.points.rows.empty() ? rigid.rounding_N : rigid.rounding_on_points_N;
+  return Unbalanced(free.motions, rigid.loads_N, F, rounding_N).relative;
 }
 
 void refuse_free_bodies(const ContactPoints& contact) {

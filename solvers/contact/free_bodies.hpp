@@ -25,6 +25,10 @@ namespace airybench {
 ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
                                      const Deadline& deadline);
 
+// Throws Breakdown where loads ask for a motion that no contact resists, with the forces in point
+// supports, and where these hold a motion that contact resists.
+void refuse_loads_on_open_motions(const RigidContact& rigid);
+
 // The largest load on a motion that contact leaves, over the largest sum of forces on one; 0
 // without free bodies, and where it is RigidContact::rounding_N at most.
 double unbalanced_share(const FreeBodies& free, const Eigen::VectorXd& F);

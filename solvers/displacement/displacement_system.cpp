@@ -14,9 +14,11 @@ int number_unknowns(const Problem& problem, DisplacementSystem& system) {
     if (system.given.at[node]) system.unknown[node].fill(DisplacementSystem::prescribed);
   for (const auto& [node, normal] : system.given.normal)
     system.unknown[node][0] = DisplacementSystem::prescribed;
-  for (const auto& [row, component] : problem.free.pins)
-    system.unknown[problem.mesh.boundary[row].vertices[0]][component] =
-        DisplacementSystem::prescribed;
+  for (const Pin& pin : problem.free.pins)
+    with_degree(system.degree - 1, [&](auto k) {
+      system.unknown[boundary_nodes<k + 1>(problem, pin.row)[1]][pin.component] =
+          DisplacementSystem::prescribed;
+    });
   for (int p = 0; p < law.count; ++p) {
     auto& unknown = system.unknown[system.control.node[p]];
     unknown[0] = later;

@@ -249,12 +249,30 @@ TEST_F(Decks, SidesOfQuadraticElementsAreHeldWithTheirMiddles) {
       "7, 8\n*MATERIAL, NAME=m\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=E, "
       "MATERIAL=M\n*STEP\n*STATIC\n*BOUNDARY\n1, 1, 2\n4, 1, 2\n";
   const auto file = testing::write_text(folder_ / "corners.inp", deck + "*END STEP\n");
-  EXPECT_NE(testing::complaint_of<InputError>([&] {
-              prescribed_by(file);
-            }).find("x is held in this node alone"),
-            std::string::npos);
+  EXPECT_EQ(of(file)["point_supports"].size(), 2u);
+  EXPECT_FALSE(of(file).contains("boundary"));
   const auto whole = testing::write_text(folder_ / "whole.inp", deck + "8, 1, 2\n*END STEP\n");
   EXPECT_EQ(of(whole)["boundary"].size(), 1u);
+}
+
+// Whether they hold what nothing else holds is seen when the scene is posed.
+TEST_F(Decks, NodesThatAreHeldAloneArePointSupports) {
+  using Json = nlohmann::json;
+  for (const auto& [held, points] : std::vector<std::array<std::string, 2>>{
+           {"1, 1, 2\n3, 2\n",
+            R"([{"at_mm":[0.0,0.0],"body":"Eall","displacement_mm":[0.0,0.0]},)"
+            R"({"at_mm":[10.0,0.0],"body":"Eall","displacement_mm":[null,0.0]}])"},
+           {"Nhead, 2\n5, 1, 1, 0.25\n",
+            R"([{"at_mm":[5.0,5.0],"body":"Eall","displacement_mm":[0.25,null]}])"},
+       }) {
+    const Prescribed prescribed = prescribed_by(plate({{"Nhead, 1, 2\n", held}}));
+    const Json scene = Json::parse(prescribed.json);
+    EXPECT_EQ(scene["point_supports"], Json::parse(points)) << held;
+    EXPECT_EQ(scene["roles"]["rest"], "force");
+    EXPECT_NE(prescribed.notes.back().find(" is held alone: it takes out a rigid motion"),
+              std::string::npos);
+  }
+  EXPECT_FALSE(of(plate({})).contains("point_supports"));
 }
 
 TEST_F(Decks, AMeshAloneIsNoScene) {
@@ -275,7 +293,9 @@ TEST_F(Decks, WhatWouldBeAnotherProblemIsRefused) {
            {"*STEP\n", "*TIE, NAME=t\nSsole, Sother\n*STEP\n", "*TIE: bonded faces"},
            {"*STEP\n", "*STEP, NLGEOM\n", "*STEP, NLGEOM"},
            {"*STEP\n", "*SPRNG\n1\n*STEP\n", "*SPRNG ("},
-           {held, held + "2, 2\n", "node 2 at (5, 0): y is held in this node alone"},
+           {held, held + "2, 2\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\n2, 2, 2, 0.1\n",
+            "node 2 at (5, 0) is held in this node alone, and moved differently in the steps"},
+           {held, held + "7, 1\n", "node 7"},
            {held, "Nhead, 1\n", "x alone is held"},
            {held, held + "Nleft, 1\n", "x alone is held"},
            {held, held + "Nhead, 3, 3, 0.1\n", "component 3 is 0.1"},

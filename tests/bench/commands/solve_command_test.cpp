@@ -164,6 +164,57 @@ INSTANTIATE_TEST_SUITE_P(Of, SolvedPart,
                          ::testing::Values("press_fit", "roller_on_plate", "slope", "bracket"),
                          [](const auto& part) { return std::string(part.param); });
 
+// The same plate pulled at both ends: what holds it carries nothing.
+TEST_F(SolveCommand, SingleNodesTakeOutARigidMotion) {
+  const std::string supports = "Nleft, 1, 1\nNbottom, 2\n", pull = "10, P2, -100.\n",
+                    both_ends = pull + "1, P4, -100.\n6, P4, -100.\n";
+  const auto write = [&](const std::string& held, const std::string& loads) {
+    std::string text = testing::text_of(deck("plate_tension"));
+    text.replace(text.find(supports), supports.size(), held);
+    text.replace(text.find(pull), pull.size(), loads);
+    testing::write_text(bench_.path("free.inp"), text);
+  };
+  for (const std::string held : {"1, 1, 2\n6, 2\n", "Nbottom, 2\n13, 1\n"}) {
+    write(held, both_ends);
+    const Json answer = solved("free.inp");
+    EXPECT_NEAR(answer["von_mises_MPa"]["value"].get<double>(), 100, 1e-6) << held;
+    EXPECT_NEAR(answer["displacement_mm"]["value"].get<double>(),
+                100 / 70000. * std::hypot(10, 0.33 * 4), 1e-9)
+        << held;
+    EXPECT_EQ(answer["displacement_mm"]["at_mm"].dump(), "[10.0,4.0]") << held;
+    for (const Json& support : answer["supports"])
+      EXPECT_NEAR(support["force_N"][1].get<double>(), 0, 1e-6) << held;
+    EXPECT_NE(result_.err.find("is held alone: it takes out a rigid motion, and no force"),
+              std::string::npos);
+  }
+  EXPECT_EQ(bench_.run("--new-scene=free.inp").code, 0);
+  EXPECT_EQ(parse_json(bench_.content("free.json"))["point_supports"].dump(),
+            R"([{"at_mm":[0.0,4.0],"body":"Eall","displacement_mm":[0.0,null]}])");
+  solved("free.inp free.json");
+  EXPECT_TRUE(says("largest von Mises stress 100 ")) << result_.err;
+  struct Refused {
+    std::string held, loads;
+    int code;
+    std::string why;
+  };
+  for (const auto& [held, loads, code, why] : std::vector<Refused>{
+           {"1, 1, 2\n6, 2\n", pull, 1,
+            "loads do not balance: point supports would carry -400 N in x at (0, 0)"},
+           {"1, 1, 2\n", both_ends, 2,
+            "free.inp: point_supports: the body Eall is free to move or turn"},
+           {"1, 1, 2\n6, 1, 2\n", both_ends, 2,
+            "free.inp: point_supports: [10, 0] holds x, which displacement edges or other points "
+            "hold: it would carry a force"},
+           {supports + "12, 2\n", both_ends, 2, "free.inp: point_supports: [10, 2] holds y"},
+       }) {
+    write(held, loads);
+    const testing::CommandResult refused = bench_.run("solve free.inp --out=o");
+    EXPECT_EQ(refused.code, code) << held;
+    EXPECT_NE((refused.out + refused.err).find(why), std::string::npos)
+        << refused.out << refused.err;
+  }
+}
+
 TEST_F(SolveCommand, DecksOfOtherProblemsAreRefused) {
   for (const auto& [name, why] :
        {std::pair("axisymmetric", "elements of type CAX4: an axisymmetric"),
