@@ -104,7 +104,7 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
            {"--method=hybrid", "no method matches 'hybrid', perhaps HYBRID (valid: "},
            {"--method=HYBRD", "no method matches 'HYBRD', perhaps HYBRID (valid: "},
            {"--metod=P2", "--metod=P2, perhaps --method (valid: "},
-           {"slove part.geo", "slove: no such command, perhaps solve (allowed: advise, "},
+           {"solv part.geo", "solv: no such command, perhaps solve (allowed: advise, "},
            {"solve part.geo --eror=1%", "--eror=1%, perhaps --error (valid: "},
            {"--figure=4 --mesh=Mesh0", "--mesh excludes --figure"},
            {"--figure=4 --method=3STEPD", "--method excludes --figure"},
