@@ -8,9 +8,10 @@
 //   ‖m − σ_exact‖ ‖Aε(v)‖
 //
 // which is guaranteed without friction. A v with little energy is recovered from HYBRID's solution
-// of the problem that prescribes it; there is none if v would jump: where a face has a corner or
-// meets Γ_D. On curves, where v = n is interpolated, the interval is widened by how far the work of
-// σ is from Σ F_n, which is only rounding elsewhere. The other intervals are estimates.
+// of the problem that prescribes it; there is none if v would jump: where a face meets
+// what is held or, with friction, has a corner. On curves, where v = n is interpolated, the
+// interval is widened by how far the work of σ is from Σ F_n, which is only rounding elsewhere. The
+// other intervals are estimates.
 //
 // *Pressure:* the largest value p of σ on Γ_C, if the peak is bounded (pressure_peak.hpp), widened
 // by 2δ, δ = |p − p_u| + √(A_nnnn e_T² / |T|) + p e²/‖σ‖²: how far Aε(u) is from it, the average

@@ -156,7 +156,12 @@ std::vector<Kind> kinds() {
        body},
       {"trapezium.mesh", by_numbers, held_above, {free_2_4}, "", body},
       {"trapezium.stl", by_numbers, held_above, {free_2_4}, "", body},
-      {"trapezium.obj", by_numbers, held_above, {free_2_4}, "", body},
+      {"trapezium.obj",
+       by_numbers,
+       held_above,
+       {"1 quadrilaterals are split by the shorter diagonal", free_2_4},
+       "",
+       body},
 #ifdef AIRYBENCH_HAS_HDF5
       {"trapezium.med.gz",
        {},

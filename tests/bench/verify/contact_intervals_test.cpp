@@ -150,13 +150,19 @@ TEST(ContactIntervals, TheLargestPressureIsUnboundedAtTheEdgeOfAPunch) {
   }
 }
 
-TEST(ContactIntervals, ResultantsNeedOneNormalAndAFaceApartFromWhatIsHeld) {
-  Mesh mesh = testing::small_tooth(6, 5);
-  for (Eigen::Vector2d& x : mesh.vertices) x.x() += 0.002 * x.x() * x.y() * x.y() / 10;
-  const Judged on_bent_face({.friction = 0, .crown_radius_mm = {}}, mesh);
-  ASSERT_TRUE(on_bent_face.intervals);
-  EXPECT_FALSE(on_bent_face.intervals->normal_resultant_N);
-  EXPECT_GT(on_bent_face.intervals->largest_pressure_MPa, 0);
+// Without friction n·v = 1 on both sides of a corner.
+TEST(ContactIntervals, WithFrictionResultantsNeedAFaceWithoutCorners) {
+  for (const double friction : {0., 0.3}) {
+    Mesh mesh = testing::small_tooth(6, 5);
+    mesh.is_polygon = true;
+    for (Eigen::Vector2d& x : mesh.vertices) x.x() += 0.002 * x.x() * x.y() * x.y() / 10;
+    const Judged judged({.friction = friction, .crown_radius_mm = {}}, mesh);
+    ASSERT_TRUE(judged.intervals);
+    EXPECT_EQ(judged.intervals->normal_resultant_N.has_value(), friction == 0);
+    EXPECT_GT(judged.intervals->largest_pressure_MPa, 0);
+    if (friction == 0)
+      expect_inside(*judged.intervals->normal_resultant_N, judged.resultant(0), "normal");
+  }
 }
 
 // The hole of a ring in contact, its edges counted from another one.
