@@ -205,8 +205,10 @@ void refuse_long_lists(const std::vector<Token>& tokens, const std::filesystem::
     if (next < tokens.size() && tokens[next].is(":"))
       step = number_at(tokens, ++next).value_or(step);
     if (last && !is_loop && !(std::abs((*last - *first) / step) <= most_entries))
-      throw FileError(fmt::format("{}: a list of the numbers {} to {} (allowed: up to 1e7 numbers)",
-                                  file.string(), *first, *last));
+      throw FileError(
+          fmt::format("{}: a list of the numbers {:g} to {:g} (allowed: up to 1e7 numbers)",
+                      file.string(), *first, *last));
+    if (last) at = next - 1;  // nor is a:b:c also b:c
   }
 }
 

@@ -40,9 +40,9 @@ TEST_F(Limits, CountsAreThoseOfTheFilesLength) {
   expect_refused("part.vtk",
                  "# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
                  "POINTS 400000000 double\n0 0 0\n",
-                 "part.vtk: line 5: POINTS 400000000 (allowed: up to 104, the file's bytes)");
+                 "part.vtk: line 5: POINTS 400000000 (allowed: up to 91, the file's bytes)");
   expect_refused("part.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n99999999999999999999\n",
-                 "part.msh: line 5: $Nodes 99999999999999999999 (allowed: up to 65, ");
+                 "part.msh: line 5: $Nodes 99999999999999999999 (allowed: up to 63, ");
   expect_refused("part.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 400000000 1 3\n",
                  "part.msh: line 5: $Nodes 400000000 (allowed: up to ");
   expect_refused("part.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 400000000\n0 0 0 1\n",
