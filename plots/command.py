@@ -4,6 +4,7 @@ import argparse
 import fcntl
 import os
 import shutil
+import signal
 import sys
 import warnings
 from collections.abc import Callable, Iterator
@@ -49,6 +50,8 @@ def run_shown(doc: str, add_arguments: Callable[[argparse.ArgumentParser], objec
         fail(f"{error.filename or 'standard output'}: {error.strerror}; expected {expected}")
     except MemoryError:
         fail("out of memory")
+    except KeyboardInterrupt:
+        sys.exit(128 + signal.SIGINT)
 
 
 def valid_arguments(parser: argparse.ArgumentParser) -> list[str]:

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import argparse
 import shutil
+import signal
 import sys
 from pathlib import Path
 
@@ -87,6 +88,8 @@ def main() -> int:
         except (Refused, OSError) as wrong:
             print(f"reproduce: {wrong}", file=sys.stderr)
             return 2
+        except KeyboardInterrupt:  # a second call continues
+            return 128 + signal.SIGINT
 
 
 if __name__ == "__main__":

@@ -96,6 +96,11 @@ class MessagesTest(FolderTest):
                                  for mesh in ("Mesh0", "Mesh1")])
         self.assertEqual(run_command(figures, self.results, "--only=all_methods,figure4")[::2], (0, ""))
 
+    def test_an_interruption_is_no_traceback(self) -> None:
+        made_up.write(self.csv, [made_up.case("Mesh0", "3STEPD")])
+        with mock.patch.object(figures, "draw_all", side_effect=KeyboardInterrupt):
+            self.assertEqual(run(figures, self.results), (130, "", ""))
+
     def test_closed_and_full_streams(self) -> None:
         """One line or none, and no traceback."""
         made_up.write(self.csv, [made_up.case("Mesh0", "3STEPD")])
