@@ -52,8 +52,8 @@ TEST(ActivityBoard, WhatIsNoActivityHasTheLimitOfOtherPhases) {
   end.signal = SIGKILL;
   limits.others_s = 5;
   const TimedRun run = obituary_of(end, board, limits);
-  EXPECT_EQ(run.status, Status::timeout);
-  EXPECT_EQ(run.message, "its process was ended between its runs: the limit is 5 s");
+  EXPECT_EQ(run.end.status, Status::timeout);
+  EXPECT_EQ(run.end.reason, "its process was ended between its runs: the limit is 5 s");
   board.begins(Activity::detail_run);
   limits.others_s = -10;
   EXPECT_FALSE(is_overdue(board, limits));
