@@ -89,7 +89,7 @@ struct Solved {
   ContactPicture contact() const { return contact_picture(system, solution, w); }
   void write(const fs::path& folder, const std::string& name = "a",
              const ConstitutiveError* error = nullptr) const {
-    write_fields(folder, name, {system, solution, w, error, {}});
+    write_fields(folder, name, {system, solution, w, error, nullptr, {}});
   }
   double largest_force() const {
     double largest = 0;

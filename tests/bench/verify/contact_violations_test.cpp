@@ -110,7 +110,7 @@ TEST(ContactViolations, UnbalancedForce) {
   for (const char* name : {"HYBRID", "P2"}) {
     SCOPED_TRACE(name);
     const bool in_displacements = std::string(name) == "P2";
-    Solution solution = testing::solved_by(name, system);
+    Solution solution = testing::answered_by(name, system);
     const auto verified = [&] {
       return in_displacements ? verify_displacement(system, solution)
                               : verify(system, solution, nullptr);
@@ -128,12 +128,12 @@ class OfPrograms : public ::testing::Test {
  protected:
   OfPrograms() { answer_.program = ProgramRun{}; }
   const DualSystem system_ = assemble(testing::posed({}), Blocks::contact_points);
-  Solution answer_ = testing::solved_by("P2", system_);
+  Solution answer_ = testing::answered_by("P2", system_);
 };
 
 // Forces of 1e-6 N at open points, as a program's last digits leave them.
 TEST_F(OfPrograms, StatesAreThoseOfTrialForces) {
-  const Solution ours = testing::solved_by("P2", system_);
+  const Solution ours = testing::answered_by("P2", system_);
   const Verification expected = verify_displacement(system_, ours);
   ASSERT_GT(*expected.n_open, 0);
   answer_.F_C.array() += 1e-6;

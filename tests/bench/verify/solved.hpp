@@ -12,7 +12,7 @@
 
 namespace airybench::testing {
 
-inline Solution solved_by(const std::string& method, const DualSystem& system) {
+inline Solution answered_by(const std::string& method, const DualSystem& system) {
   Solution solution = run(select_methods(method).front(), system, {});
   EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
   return solution;
@@ -27,7 +27,7 @@ struct Solved {
   explicit Solved(Problem problem, int degree = 1)
       : system(assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points,
                         degree)),
-        hybrid(solved_by(hybrid_of_degree(degree), system)),
+        hybrid(answered_by(hybrid_of_degree(degree), system)),
         w(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)) {}
   Solved(const Scene& scene, Mesh mesh, int degree = 1)
       : Solved(pose(scene, std::move(mesh)), degree) {}
@@ -36,7 +36,7 @@ struct Solved {
     return constitutive_error(system, hybrid.stress, hybrid.F_C, u);
   }
   ConstitutiveError error() const { return error_with(w); }
-  Solution p2() const { return solved_by("P2", system); }
+  Solution p2() const { return answered_by("P2", system); }
   ConstitutiveError error_with_p2() const { return error_with(p2().displacement); }
 };
 
