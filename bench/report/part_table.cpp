@@ -43,30 +43,34 @@ std::string within(const std::optional<double>& low, const std::optional<double>
   return low && high ? fmt::format(" in [{:.5g}, {:.5g}]", *low, *high) : "";
 }
 
-// "[95.2, 104.8]"; "-": it is not known.
-std::string interval(const Json& of, const char* key) {
-  if (!of.contains(key)) return "-";
-  return fmt::format("[{:.5g}, {:.5g}]", of[key][0].get<double>(), of[key][1].get<double>());
+// " ± 2.3": no end of the interval is farther from the value; empty: there is none.
+std::string off(const Json& of, const char* interval, double value) {
+  if (!of.contains(interval)) return "";
+  const double low = of[interval][0], high = of[interval][1];
+  return fmt::format(" ± {:.2g}", std::max(high - value, value - low));
 }
-std::string pressure_within(const Json& pressure) {
+std::string peak(const Json& pressure) {
+  const double value = pressure["value"];
+  if (!(value > 0)) return "-";
   const std::string is = pressure.value("is", "");
-  if (is == "unbounded") return "unbounded: a sharp edge";
-  return is == "not seen" ? is : interval(pressure, "in");
+  if (is == "unbounded") return is;
+  return number(value) + (is == "not seen" ? " or unbounded" : off(pressure, "in", value));
 }
 
 Rows faces_table(const Json& part, const Forces& forces) {
   if (part["faces"].empty()) return {};
-  Rows rows = {{"contact", "force x, y N", "F_n N", "within", "F_t N", "within", "peak MPa",
-                "within", "at mm", "closed mm", "of that slips mm"}};
+  Rows rows = {{"contact", "force x, y N", "F_n N", "F_t N", "peak MPa", "at mm", "closed mm",
+                "of that slips mm"}};
+  const auto force = [&](const Json& face, const char* value, const char* interval) {
+    return forces.text(face[value].get<double>()) + off(face, interval, face[value].get<double>());
+  };
   for (const Json& face : part["faces"]) {
-    const double closed = face["closed_mm"], length = face["length_mm"],
-                 peak = face["pressure_MPa"]["value"];
+    const double closed = face["closed_mm"], length = face["length_mm"];
+    const Json& pressure = face["pressure_MPa"];
     rows.push_back({face["name"], forces.both(face["force_N"]),
-                    forces.text(face["normal_N"].get<double>()), interval(face, "normal_in_N"),
-                    forces.text(face["tangential_N"].get<double>()),
-                    interval(face, "tangential_in_N"), peak > 0 ? number(peak) : "-",
-                    peak > 0 ? pressure_within(face["pressure_MPa"]) : "-",
-                    peak > 0 ? place(face["pressure_MPa"]["at_mm"]) : "-",
+                    force(face, "normal_N", "normal_in_N"),
+                    force(face, "tangential_N", "tangential_in_N"), peak(pressure),
+                    pressure["value"] > 0. ? place(pressure["at_mm"]) : "-",
                     fmt::format("{:.4g} of {:.4g}", closed, length),
                     closed > 0 ? fmt::format("{:.4g}", face["slipping_mm"].get<double>()) : "-"});
   }

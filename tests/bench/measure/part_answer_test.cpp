@@ -127,6 +127,24 @@ TEST_P(OfTooth, TheFileOfFacesHasThePressure) {
 
 INSTANTIATE_TEST_SUITE_P(Degrees, OfTooth, ::testing::Values(1, 2, 3));
 
+// Of a face: how far each value may be off, or that the pressure may be infinite.
+TEST(PartTable, FacesHaveTheirIntervals) {
+  const auto row = [](const char* pressure) {
+    Json part = parse_json(R"({"faces": [{"name": "contact:sole", "force_N": [0, 8], "normal_N": -8,
+        "tangential_N": 1, "length_mm": 4, "closed_mm": 2, "slipping_mm": 0,
+        "normal_in_N": [-8.5, -7.75]}], "supports": [], "von_mises_MPa": {"value": 1, "at_mm": [0, 0]},
+        "principal_MPa": {"value": 1, "at_mm": [0, 0]}})");
+    part["faces"][0]["pressure_MPa"] = parse_json(pressure);
+    return std::get<1>(part_report(Record(), part).front()).at(1);
+  };
+  const std::vector<std::string> bounded =
+      row(R"({"value": 6, "at_mm": [1, 0], "is": "bounded", "in": [5.5, 7]})");
+  EXPECT_EQ(bounded, split_list("contact:sole;0, 8;-8 ± 0.5;1;6 ± 1;(1, 0);2 of 4;0", ';'));
+  EXPECT_EQ(row(R"({"value": 6, "at_mm": [1, 0], "is": "unbounded"})").at(4), "unbounded");
+  EXPECT_EQ(row(R"({"value": 6, "at_mm": [1, 0], "is": "not seen"})").at(4), "6 or unbounded");
+  EXPECT_EQ(row(R"({"value": 0, "at_mm": [0, 0], "is": "bounded"})").at(4), "-");
+}
+
 TEST(PartTable, SaysWhatIsNotKnown) {
   Record record;
   record.status = Status::ok;
