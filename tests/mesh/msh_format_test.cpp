@@ -125,10 +125,10 @@ TEST(ReadMsh, RefusesInOneLineWithFileAndPlace) {
        ":30: unexpected section after $EndElements" + convert},
       // From here on the triangulation itself is wrong, which is not one line's fault.
       {last, "8 2 2 21 1 4 3 5",
-       ": triangle 4: inverted (its vertices must run counter-clockwise)"},
+       ": triangle 4 at [0.5, 0.833333]: inverted (its vertices must run counter-clockwise)"},
       {"2 1 2 13 2 2 3", "2 1 2 13 2 3 2",
-       ": boundary edge 3-2: walked clockwise; the body must lie on its left"},
-      {"2 1 2 13 2 2 3", "2 1 2 13 2 1 2", ": boundary edge 1-2: given twice"},
+       ": boundary edge 3-2 at [1, 0.5]: walked clockwise; the body must lie on its left"},
+      {"2 1 2 13 2 2 3", "2 1 2 13 2 1 2", ": boundary edge 1-2 at [0.5, 0]: given twice"},
   };
   for (const auto& [from, to, expected] : changes)
     EXPECT_EQ(complaint(plate_with(from, to)), "some/plate.msh" + expected) << from << " → " << to;

@@ -252,5 +252,5 @@ class RunTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
         self.assertIn(f"{folder} has neither records nor fields/", done.stderr)
         self.assertEqual((wrong.returncode, wrong.stdout, wrong.stderr.count("\n")), (2, "", 1))
-        self.assertIn("another' (valid: a results folder, --only=GLOB,..., --animate, "
+        self.assertIn("another' (valid: a results folder, --only=GLOB,..., --animate, --html, "
                       "--vector)", wrong.stderr)
