@@ -189,7 +189,7 @@ TEST_F(SolveCommand, SingleNodesTakeOutARigidMotion) {
   }
   EXPECT_EQ(bench_.run("--new-scene=free.inp").code, 0);
   EXPECT_EQ(parse_json(bench_.content("free.json"))["point_supports"].dump(),
-            R"([{"at_mm":[0.0,4.0],"body":"Eall","displacement_mm":[0.0,null]}])");
+            R"([{"at_mm":[0.0,4.0],"displacement_mm":[0.0,null],"body":"Eall"}])");
   solved("free.inp free.json");
   EXPECT_TRUE(says("largest von Mises stress 100 ")) << result_.err;
   struct Refused {
@@ -205,7 +205,7 @@ TEST_F(SolveCommand, SingleNodesTakeOutARigidMotion) {
            {"1, 1, 2\n6, 1, 2\n", both_ends, 2,
             "free.inp: point_supports: [10, 0] holds x, which displacement edges or other points "
             "hold: it would carry a force"},
-           {supports + "12, 2\n", both_ends, 2, "free.inp: point_supports: [10, 2] holds y"},
+           {supports + "12, 2\n", pull, 2, "free.inp: point_supports: [10, 2] holds y"},
        }) {
     write(held, loads);
     const testing::CommandResult refused = bench_.run("solve free.inp --out=o");

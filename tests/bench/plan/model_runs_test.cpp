@@ -358,11 +358,11 @@ TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {
       free.err,
       "bench: part.geo: no edges in a physical curve named displacement (others found: "
       "'clamped'; --role gives them one); --role=NUMBER=displacement holds one of its curves:\n"
-      "  curve  names    role     length mm  from    by        to\n"
-      "  1      force    force    1          (0, 0)  (0.5, 0)  (1, 0)\n"
-      "  2      contact  force    1          (1, 0)  (1, 0.5)  (1, 1)\n"
-      "  3      force    force    1          (1, 1)  (0.5, 1)  (0, 1)\n"
-      "  4      clamped  force    1          (0, 1)  (0, 0.5)  (0, 0)\n");
+      "  curve  names    role   length mm  from    by        to\n"
+      "  1      force    force  1          (0, 0)  (0.5, 0)  (1, 0)\n"
+      "  2      contact  force  1          (1, 0)  (1, 0.5)  (1, 1)\n"
+      "  3      force    force  1          (1, 1)  (0.5, 1)  (0, 1)\n"
+      "  4      clamped  force  1          (0, 1)  (0, 0.5)  (0, 0)\n");
   expect_refusal("--mesh=nowhere.geo", "nowhere.geo: cannot be opened: No such file or directory");
   expect_refusal("--mesh=part.geo --role clamped=fixed",
                  "--role: clamped=fixed (allowed: NAME=ROLE with displacement, force, contact, or "
