@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -39,6 +40,10 @@ std::optional<DeckElement> element_of(const std::string& type) {
     if (!type.starts_with(prefix)) continue;
     const std::size_t nodes = digit_at(prefix.size());
     if (nodes != 3 && nodes != 4 && nodes != 6 && nodes != 8) return {};
+    // Integration, hybrid pressure, small strains; others have temperatures or pores.
+    constexpr std::array<std::string_view, 11> variants = {"",   "R",  "I",  "H",   "M", "RH",
+                                                           "IH", "MH", "RS", "RSW", "R5"};
+    if (std::ranges::find(variants, type.substr(prefix.size() + 1)) == variants.end()) return {};
     return of(prefix == "CPE" ? Kind::plane_strain : Kind::plane_stress, nodes,
               nodes % 3 == 0 ? 3 : 4, !type.starts_with("C"));
   }

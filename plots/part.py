@@ -152,6 +152,8 @@ def draw_outline(axes: Axes, part: Part) -> None:
 
 
 def enlargement(part: Part) -> float | None:
+    if "free_motion" in part.answer:  # nothing determines where it is
+        return None
     largest = np.hypot(*part.edges[..., 2:4].reshape(-1, 2).T).max()
     return round_below(MOVED * part.size / largest) if largest > 0 else None
 
@@ -250,7 +252,8 @@ def mark_largest(axes: Axes, part: Part, view: np.ndarray) -> None:
     for face in part.answer["faces"]:  # away from the words of a pressure
         if np.hypot(*(away := at - face["pressure_MPa"]["at_mm"])) < TALLEST * np.ptp(view[:, 0]):
             up = 0 if away[1] >= 0 and at[1] != view[0, 1] else 1
-    words = f"unbounded: {unbounded['what']}" if unbounded else f"largest {stress['value']:.4g} MPa"
+    off = f" ± {stress['off']:.2g}" if "off" in stress else ""
+    words = f"unbounded: {unbounded['what']}" if unbounded else f"largest {stress['value']:.4g}{off} MPa"
     side = 0 if abs(across - 0.5) < 0.1 else 1 if across < 0.5 else -1  # of the words
     axes.annotate(words, at, xytext=(9 * side, 12 if up < 0.5 else -12), textcoords="offset points",
                   weight="bold", ha=("center", "left", "right")[side],

@@ -42,8 +42,9 @@ struct SingularPlace {
 struct LargestStress : ValueAt {  // MPa
   int triangle = 0;
   std::optional<SingularPlace> unbounded;  // where the largest is found next to such a place
-  // Twice what the largest stress of the displacements differs by: an estimate of what this is off
-  // by.
+  // An estimate of what it is off by, as that of the largest pressure (contact_intervals.hpp):
+  // twice the sum of what the largest stress of the displacements differs by, of the mean error
+  // that the triangle's e_T² allows, and of what errors elsewhere change.
   std::optional<double> off_MPa;
 };
 
@@ -51,6 +52,7 @@ struct PartAnswer {
   std::vector<FaceAnswer> faces;
   std::vector<SupportAnswer> supports;
   std::optional<ValueAt> displacement_mm;
+  std::string free_motion;  // that nothing determines, nor the displacement; empty: there is none
   LargestStress von_mises, principal;  // principal: the largest by magnitude, with its sign
 };
 

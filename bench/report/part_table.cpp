@@ -103,6 +103,10 @@ void add_contact_lines(const Record& r, PartReport& report) {
 }
 
 void add_stress_lines(const Json& part, PartReport& report) {
+  if (part.contains("free_motion"))
+    report.emplace_back(
+        fmt::format("largest displacement: not determined, {} (point_supports hold it)",
+                    part["free_motion"].get<std::string>()));
   if (part.contains("displacement_mm"))
     report.emplace_back(fmt::format("largest displacement {:.5g} mm at {}",
                                     part["displacement_mm"]["value"].get<double>(),

@@ -205,7 +205,7 @@ TEST_F(SolveCommand, SingleNodesTakeOutARigidMotion) {
            {"1, 1, 2\n6, 1, 2\n", both_ends, 2,
             "free.inp: point_supports: [10, 0] holds x, which displacement edges or other points "
             "hold: it would carry a force"},
-           {supports + "12, 2\n", pull, 2, "free.inp: point_supports: [10, 2] holds y"},
+           {supports + "15, 2\n", pull, 2, "free.inp: point_supports: [4, 4] holds y"},
        }) {
     write(held, loads);
     const testing::CommandResult refused = bench_.run("solve free.inp --out=o");
