@@ -15,7 +15,7 @@ std::vector<ContactFace> contact_faces(const Problem& problem) {
     if (other == Problem::no_row)
       faces[label(row)].push_back(row);
     else if (std::pair(label(row), row) < std::pair(label(other), other))
-      faces[label(row) + " on " + label(other)].push_back(row);
+      faces[label(row) + " against " + label(other)].push_back(row);
   }
   std::vector<ContactFace> list;
   for (auto& [name, rows] : faces) list.push_back({name, std::move(rows)});

@@ -10,7 +10,7 @@
 namespace airybench {
 
 struct ContactFace {
-  std::string name;       // "contact:sole", "contact:pin on contact:eye"
+  std::string name;       // "contact:sole", "contact:pin against contact:eye"
   std::vector<int> rows;  // of Mesh::boundary; of a pair those of the label that is named first
 };
 

@@ -126,8 +126,8 @@ TEST(FaceIntervals, OfAStackOfBlocksAreWhatStaticsSays) {
         expect_holds(face.normal_resultant_N, -force, what);
         EXPECT_LT(width(face.normal_resultant_N), 1e-6 * force) << what;
       };
-      expect(judged.face("contact:base on contact:below"), on_base, "below");
-      expect(judged.face("contact:above on contact:top"), on_middle, "above");
+      expect(judged.face("contact:base against contact:below"), on_base, "below");
+      expect(judged.face("contact:above against contact:top"), on_middle, "above");
       expect(judged.intervals, on_base + on_middle, "both");
     }
 }
@@ -165,7 +165,7 @@ TEST(FaceIntervals, OfAShrinkFitHoldLamesForceAndPressure) {
       add_ring_sector(mesh, "hub", hub, 6 * times, "force", "contact:hub", quarter);
       add_ring_sector(mesh, "rim", rim, 8 * times, "contact:rim", "force", quarter);
       const Judged judged(scene, mesh, degree);
-      const FaceIntervals& face = judged.face("contact:hub on contact:rim");
+      const FaceIntervals& face = judged.face("contact:hub against contact:rim");
       expect_holds(face.normal_resultant_N, -pressure * pi / 2 * b, "force");
       const double now = width(face.normal_resultant_N);
       EXPECT_LT(now, 0.7 * before);
