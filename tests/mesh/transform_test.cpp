@@ -248,8 +248,7 @@ TEST(MeshTransform, ImpossibleValuesAreNamed) {
        "slivers: aspect: 1e+14 cannot be: small tooth: triangle 17 at ["},
       {[](auto& t) { t.move_mm.x() = 1e17; },
        "move_mm: [1e+17, 0] cannot be: small tooth: triangle 1"},
-      {[](auto& t) { t.scale = 1e200; },
-       "scale: 1e+200 cannot be: small tooth: triangle 1 at ["},
+      {[](auto& t) { t.scale = 1e200; }, "scale: 1e+200 cannot be: small tooth: triangle 1 at ["},
   };
   for (const auto& [change, expected] : cases) {
     MeshTransform transform;

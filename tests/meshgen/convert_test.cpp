@@ -298,7 +298,8 @@ TEST_F(Convert, MeshSize) {
   EXPECT_NEAR(edges("50%").first, shortest / 2, 0.1 * shortest);
   EXPECT_NEAR(edges("50%").second, longest / 2, 0.15 * longest);  // edges are whole
   options_ = model_options_of({}, {}, "1e-9");
-  EXPECT_NE(complaint("a.geo", graded).find("triangles: --mesh-size (allowed: up to 2e+07)"), std::string::npos);
+  EXPECT_NE(complaint("a.geo", graded).find("triangles: --mesh-size (allowed: up to 2e+07)"),
+            std::string::npos);
   EXPECT_EQ(complaint("a.msh", clockwise_plate),
             "--mesh-size: it has a mesh already (bench --adapt refines one)");
 }
