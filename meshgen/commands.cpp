@@ -47,7 +47,7 @@ std::string last_line_of(std::string text) {
   return text.substr(text.rfind('\n') + 1);
 }
 
-constexpr const char* curves = "curves.json";
+constexpr const char* curves_file = "curves.json";
 
 void draw_curves(const std::filesystem::path& curves_json, const std::filesystem::path& out) {
   constexpr double time_limit_s = 300;
@@ -180,10 +180,10 @@ int show_command(const std::filesystem::path& model, const ModelOptions& options
       print_data(json + "\n");
     else
       fmt::print("{}\n", table_of(plane));
-    write_file_atomically(folder / curves, json);
+    write_file_atomically(folder / curves_file, json);
   };
   const auto draw = [&](const std::filesystem::path& folder) {
-    if (out != "-") draw_curves(folder / curves, out);
+    if (out != "-") draw_curves(folder / curves_file, out);
   };
   return in_a_child(model, options, show, draw);
 }
