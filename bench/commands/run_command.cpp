@@ -210,8 +210,10 @@ int run_command(int argc, const char* const* argv) {
   }
   if (!options.new_scene.empty()) {
     const std::string scene = write_new_scene(options.new_scene, options.run.model_settings);
-    fmt::print("{}: fill it in, then: {} --mesh={} --scene={}\n", scene, called_as("bench"),
-               shell_word(options.new_scene.string()), shell_word(scene));
+    fmt::print(
+        "{0}: fill it in, then for its answer: {1} solve {2} {3}\n"
+        "to compare methods: {1} --mesh={2} --scene={3}\n",
+        scene, called_as("bench"), shell_word(options.new_scene.string()), shell_word(scene));
     return all_ok;
   }
   if (!options.new_external.empty()) return new_external(options.new_external);

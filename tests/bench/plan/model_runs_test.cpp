@@ -171,7 +171,8 @@ TEST_F(ModelRuns, ANewSceneNamesTheModelsGroups) {
                  "export AIRYBENCH_CACHE_DIR=cache AIRYBENCH_CALLED_AS=../run; ");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.out,
-            "part.json: fill it in, then: ../run bench --mesh=part.geo --scene=part.json\n");
+            "part.json: fill it in, then for its answer: ../run bench solve part.geo part.json\n"
+            "to compare methods: ../run bench --mesh=part.geo --scene=part.json\n");
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(bench_.content("part.json"), R"({
   "length_unit": "mm",
