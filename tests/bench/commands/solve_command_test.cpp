@@ -249,6 +249,62 @@ TEST_F(SolveCommand, ItsPictureAndPageAreMadeOfWhatIsPrinted) {
   EXPECT_TRUE(bench_.content(fields + ".outline.csv").starts_with("edge,piece,x_mm,"));
 }
 
+// Where the roller's contact ends within its face stresses are finite; at (0, 0) Hertz' pressure is
+// within what is said.
+TEST_F(SolveCommand, TheLargestStressUnderARollerIsHertz) {
+  const std::string model = testing::test_data("models/roller_on_plate.geo").string();
+  testing::write_text(bench_.path("roller.json"),
+                      R"({"materials": {"roller": {"young_MPa": 210000, "poisson": 0.3},
+                                        "plate": {"young_MPa": 210000, "poisson": 0.3}},
+                          "displacement_mm": [0, 0],
+                          "boundary": {"force:axle": {"traction_MPa": [0, -10]}},
+                          "contacts": [{"between": ["contact:plate", "contact:roller"],
+                                        "friction": 0}]})");
+  constexpr double load_N = 10 * 2 * std::numbers::pi * 8;
+  const double p0 = std::sqrt(load_N * stiff_MPa / (std::numbers::pi * 25));
+  for (const char* error : {"1%", "0.5%"}) {
+    const Json answer = solved(model + " roller.json --error=" + error);
+    for (const char* key : {"von_mises_MPa", "principal_MPa"})
+      EXPECT_FALSE(answer[key].contains("unbounded")) << error << answer[key];
+    const Json& principal = answer["principal_MPa"];
+    EXPECT_NEAR(principal["value"].get<double>(), -p0, principal["off"].get<double>()) << error;
+  }
+}
+
+// A block on a flat wall without friction: nothing says where it slides to.
+TEST_F(SolveCommand, ADisplacementThatNothingDeterminesIsNotPrinted) {
+  testing::write_text(bench_.path("block.geo"), R"(
+      Point(1) = {0, 0, 0, 1}; Point(2) = {4, 0, 0, 1}; Point(3) = {4, 2, 0, 1};
+      Point(4) = {0, 2, 0, 1};
+      Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+      Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+      Physical Curve("contact") = {1}; Physical Curve("force:top") = {3};
+      Physical Curve("force") = {2, 4}; Physical Surface("block") = {1};)");
+  bench_.expect_refusal("solve block.geo --out=o", "block.geo: a SCENE is needed (");
+  testing::write_text(bench_.path("block.json"), R"({"crown_radius_mm": null, "friction": 0,
+                                     "boundary": {"force:top": {"pressure_MPa": 5}}})");
+  const Json answer = solved("block.geo block.json");
+  EXPECT_NEAR(answer["faces"][0]["normal_N"].get<double>(), -20, 1e-6);
+  EXPECT_FALSE(answer.contains("displacement_mm"));
+  EXPECT_TRUE(says("largest displacement: not determined, ")) << result_.out;
+}
+
+// CPE4P has pores, CPS44 is a slip of the pen.
+TEST_F(SolveCommand, TypesOfElementsAreKnownOrRefused) {
+  const std::string text = testing::text_of(deck("plate_tension"));
+  for (const char* type : {"CPE4P", "CPS44", "CPS4RT"}) {
+    std::string changed = text;
+    const std::size_t at = changed.find("CPS");
+    changed.replace(at, changed.find_first_of(",\r\n", at) - at, type);
+    testing::write_text(bench_.path("other.inp"), changed);
+    const testing::CommandResult refused = bench_.run("solve other.inp --out=o");
+    EXPECT_EQ(refused.code, 2) << type;
+    EXPECT_NE(refused.err.find(fmt::format("elements of type {} (allowed: ", type)),
+              std::string::npos)
+        << refused.err;
+  }
+}
+
 TEST_F(SolveCommand, WhatCannotBeSolvedIsSaid) {
   bench_.expect_refusal("solve " + deck("plate_tension") + " --error=1%:weight --out=o",
                         "--error: 1%:weight (allowed: above 0% and below 100%, as 1%, 1%:force, "
