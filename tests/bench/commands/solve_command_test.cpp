@@ -261,13 +261,16 @@ TEST_F(SolveCommand, TheLargestStressUnderARollerIsHertz) {
                           "contacts": [{"between": ["contact:plate", "contact:roller"],
                                         "friction": 0}]})");
   constexpr double load_N = 10 * 2 * std::numbers::pi * 8;
+  constexpr double of_size = 1e-3;  // Hertz' bodies are infinite
   const double p0 = std::sqrt(load_N * stiff_MPa / (std::numbers::pi * 25));
   for (const char* error : {"1%", "0.5%"}) {
     const Json answer = solved(model + " roller.json --error=" + error);
     for (const char* key : {"von_mises_MPa", "principal_MPa"})
       EXPECT_FALSE(answer[key].contains("unbounded")) << error << answer[key];
     const Json& principal = answer["principal_MPa"];
-    EXPECT_NEAR(principal["value"].get<double>(), -p0, principal["off"].get<double>()) << error;
+    EXPECT_NEAR(principal["value"].get<double>(), -p0,
+                principal["off"].get<double>() + of_size * p0)
+        << error;
   }
 }
 
