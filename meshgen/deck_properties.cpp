@@ -140,7 +140,8 @@ void check_parameters(const DeckBlock& block, const ReadKeyword& read) {
   for (const auto& [name, value] : block.parameters) {
     if (!is_one_of(read.parameters, name) && !is_one_of(read.idle, name))
       block.line.fail(fmt::format("*{}, {} (allowed: {}{}{})", block.keyword, name, read.parameters,
-                                  read.idle.empty() ? "" : ",", read.idle));
+                                  read.parameters.empty() || read.idle.empty() ? "" : ",",
+                                  read.idle));
     for (const auto& [keyword, parameter, values] : read_values)
       if (keyword == block.keyword && parameter == name && !is_one_of(values, in_capitals(value)))
         block.line.fail(
