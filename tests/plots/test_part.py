@@ -70,6 +70,11 @@ class PartTest(FolderTest):
             self.assertIn(text, words)
         self.assertNotIn("this or more", words)
 
+    def test_a_pair_is_named_by_both_faces(self) -> None:
+        pair = {"name": "contact:sole against contact:ground", "closed_mm": 10,
+                "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
+        self.assertIn("7.5 MPa", self.words(faces=[pair]))
+
     def test_what_is_unbounded_has_no_number(self) -> None:
         place = {"what": "a re-entrant corner", "at_mm": [0, 4]}
         words = self.words(von_mises_MPa={"value": 8, "at_mm": [0, 4], "unbounded": place},
