@@ -66,6 +66,10 @@ std::vector<SceneFile> read_scenes(const RunSettings& run) {
   }
   if (scenes.empty())
     if (std::optional<SceneFile> own = scene_of_own_deck(run)) return {std::move(*own)};
+  if (scenes.empty() && run.needs_scene && is_mesh_file(run.meshes))
+    throw UsageError(
+        fmt::format("{}: a SCENE is needed ({} bench --new-scene={} writes one to fill in)",
+                    shortened(run.meshes), called_as("run"), shell_word(run.meshes)));
   note_unused_deck(run);
   if (scenes.empty()) scenes.emplace_back();
   return scenes;

@@ -17,8 +17,6 @@
 #include "bench/run/adapted_scenes.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
-#include "mesh/model_format.hpp"
-#include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
 #include "support/called_as.hpp"
@@ -66,18 +64,13 @@ Goal goal_of(const std::string& text) {
                   shortened(text)));
 }
 
-std::string no_scene(const std::string& model) {
-  return fmt::format("{}: a SCENE is needed ({} bench --new-scene={} writes one to fill in)",
-                     shortened(model), called_as("run"), shell_word(model));
-}
-
 Options parse_solve(int argc, const char* const* argv, Goal& goal, bool& html) {
   Options options;
   options.output.folder = "results/solve";
   options.limits.repetitions = 1;
   options.run.cases.fields = options.run.cases.picture = true;
   options.run.cases.timed_once = options.run.cases.intervals = true;
-  options.run.adapt.goals_only = true;
+  options.run.adapt.goals_only = options.run.needs_scene = true;
   std::string error = "1%", degree = "auto", scene;
   CLI::App app("A part's forces, pressure, stress and displacement, and how far they may be off.",
                "{bench} solve");
@@ -98,9 +91,6 @@ Options parse_solve(int argc, const char* const* argv, Goal& goal, bool& html) {
       ->capture_default_str();
   parse_command_line(app, argc, argv);
   if (!scene.empty()) options.run.scenes = {scene};
-  if (scene.empty() && is_mesh_file(options.run.meshes) &&
-      format_of(options.run.meshes) != ModelFormat::abaqus)
-    throw UsageError(no_scene(options.run.meshes));
   goal = goal_of(error);
   options.run.adapt.goals = {{.error = goal.error, .unknowns = {}}};
   read_degree(degree, false, options.run);
@@ -253,9 +243,6 @@ int solve_command(int argc, const char* const* argv) {
   catch_interrupts();
   const KeptNotes said(std::cerr);
   const PosedScene start = one_posed_scene(options);
-  if (options.run.scenes.empty() && is_mesh_file(options.run.meshes) &&
-      start.scene_name == Scene().name)  // the deck has none
-    throw UsageError(no_scene(options.run.meshes));
   make_folder(options.output.folder);
   set_threads(options.run.cases.threads);
   const std::optional<Solved> answer = solved(start, options, goal);

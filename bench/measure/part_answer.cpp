@@ -51,11 +51,16 @@ class PartReader {
     if (w && error_ != nullptr) {
       const auto [von_mises, principal] = largest_stresses(stress_of_displacement(problem_, *w));
       // For one unit of energy density: von Mises² ≤ 3 G σ:C:σ, principal² ≤ A_nnnn σ:C:σ.
-      const auto elasticity = [&](int t) { return elasticity_of(problem_.compliance_of(t)); };
-      const int t = answer.von_mises.triangle, s = answer.principal.triangle;
-      answer.von_mises.off_MPa =
-          off_MPa(answer.von_mises, von_mises.value, 3 * elasticity(t)(2, 2));
-      answer.principal.off_MPa = off_MPa(answer.principal, principal.value, elasticity(s)(0, 0));
+      const auto estimate = [&](LargestStress& largest, double of_displacements, int component,
+                                double factor) {
+        const int t = largest.triangle;
+        const Eigen::Matrix3d A = elasticity_of(problem_.compliance_of(t));
+        largest.off_MPa =
+            twice_estimated_error_MPa(problem_, *error_, t, factor * A(component, component),
+                                      largest.value - of_displacements, std::abs(largest.value));
+      };
+      estimate(answer.von_mises, von_mises.value, 2, 3);
+      estimate(answer.principal, principal.value, 0, 1);
     }
     return answer;
   }
@@ -99,11 +104,7 @@ class PartReader {
   std::string label(int row) const { return boundary_label(mesh_, mesh_.boundary[row]); }
   bool is_contact(int row) const { return mesh_.boundary[row].role == BoundaryRole::contact; }
 
-  Eigen::Vector2d at(int row, double s) const {
-    const BoundaryEdge& edge = mesh_.boundary[row];
-    if (problem_.follows_curve(row, degree_)) return edge.curve.at(s);
-    return (1 - s) * mesh_.vertices[edge.vertices[0]] + s * mesh_.vertices[edge.vertices[1]];
-  }
+  Eigen::Vector2d at(int row, double s) const { return point_on_edge(problem_, row, degree_, s); }
   double length(int row) const {
     if (!problem_.follows_curve(row, degree_)) return problem_.frame_at(row, 0, 1).length_mm;
     const CurvedSide<double> side({mesh_.boundary[row].curve.points_mm, {}, {}}, degree_);
@@ -187,28 +188,17 @@ class PartReader {
     };
     const StressSamples samples(problem_, stress, 6);
     for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-      const double poisson =
-          problem_.poisson_zz.empty() ? 0 : problem_.poisson_zz[mesh_.triangle_body[t]];
       for (int k = 0; k < 3; ++k) {
         const StressSamples::Third third = samples.third(t, k);
         for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i) {
           const Eigen::Vector3d s = third.stress.col(i);
-          take(both.first, von_mises(s, poisson), third.at_mm.col(i), t);
+          take(both.first, von_mises(problem_, t, s), third.at_mm.col(i), t);
           for (const double value : principal_stresses(s))
             take(both.second, value, third.at_mm.col(i), t);
         }
       }
     }
     return both;
-  }
-
-  double off_MPa(const LargestStress& largest, double of_displacements,
-                 double stiffness_MPa) const {
-    constexpr double safety = 2;
-    const double local = std::sqrt(std::max(0.0, error_->of_triangle_Nmm[largest.triangle]) *
-                                   stiffness_MPa / problem_.area_mm2(largest.triangle)),
-                 from_afar = std::abs(largest.value) * error_->relative * error_->relative;
-    return safety * (std::abs(largest.value - of_displacements) + local + from_afar);
   }
 
   // How a side is held: not at all, along its normal only, or as a whole.
@@ -337,6 +327,10 @@ std::string faces_csv(const SolvedFields& fields, const ContactPicture& contact)
 
 PartAnswer part_answer(const SolvedFields& fields) { return PartReader(fields).answer(fields.w); }
 
+double von_mises(const Problem& problem, int triangle, const Eigen::Vector3d& stress) {
+  const std::vector<double>& poisson = problem.poisson_zz;
+  return von_mises(stress, poisson.empty() ? 0 : poisson[problem.mesh.triangle_body[triangle]]);
+}
 double von_mises(const Eigen::Vector3d& s, double poisson_zz) {
   const double zz = poisson_zz * (s(0) + s(1));
   return std::sqrt(

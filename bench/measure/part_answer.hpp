@@ -64,6 +64,7 @@ std::string faces_csv(const SolvedFields& fields, const ContactPicture& contact)
 
 // √(σ:σ 3/2 − …) of (xx, yy, xy) and σ_zz = ν (σ_xx + σ_yy).
 double von_mises(const Eigen::Vector3d& stress, double poisson_zz);
+double von_mises(const Problem& problem, int triangle, const Eigen::Vector3d& stress);
 // The in-plane principal stresses, the larger first.
 Eigen::Vector2d principal_stresses(const Eigen::Vector3d& stress);
 

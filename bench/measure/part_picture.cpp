@@ -5,11 +5,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "bench/measure/part_answer.hpp"
 #include "bench/measure/stress_samples.hpp"
-#include "mesh/mesh.hpp"
+#include "bench/verify/along_contact.hpp"
+#include "mesh/boundary_sides.hpp"
 
 namespace airybench {
 namespace {
@@ -38,13 +38,11 @@ std::string von_mises_csv(const SolvedFields& fields) {
   const StressSamples samples(problem, stress, parts_of_third(stress.size()));
   std::string text = "third,x_mm,y_mm,von_mises_MPa\n";
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const double poisson =
-        problem.poisson_zz.empty() ? 0 : problem.poisson_zz[problem.mesh.triangle_body[t]];
     for (int k = 0; k < 3; ++k) {
       const auto [at_mm, of_third] = samples.third(t, k);
       for (Eigen::Index i = 0; i < at_mm.cols(); ++i)
         fmt::format_to(std::back_inserter(text), "{},{:.8g},{:.8g},{:.6g}\n", 3 * t + k + 1,
-                       at_mm(0, i), at_mm(1, i), von_mises(of_third.col(i), poisson));
+                       at_mm(0, i), at_mm(1, i), von_mises(problem, t, of_third.col(i)));
     }
   }
   return text;
@@ -54,22 +52,18 @@ std::string outline_csv(const Problem& problem, int degree,
                         const std::optional<DisplacementField>& u) {
   const Mesh& mesh = problem.mesh;
   const MeshPieces pieces = pieces_of(mesh);
-  std::map<int, int> triangle_of_edge;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-    for (const int edge : problem.edges.of_triangle[t]) triangle_of_edge[edge] = t;
+  const std::vector<TriangleSide> sides = boundary_sides(problem.edges);
   std::string text = "edge,piece,x_mm,y_mm,ux_mm,uy_mm,tx_MPa,ty_MPa,role\n";
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
     const Eigen::Vector2d a = mesh.vertices[edge.vertices[0]], b = mesh.vertices[edge.vertices[1]];
-    const int t = triangle_of_edge.at(problem.edges.of_boundary[row]);
+    const int t = sides[static_cast<std::size_t>(row)].triangle;
     Eigen::Matrix3d corners;
     corners << problem.vertices_of(t), Eigen::RowVector3d::Ones();
     const Eigen::Matrix3d inverse = corners.inverse();
     for (int i = 0; i <= parts_of_edge; ++i) {
       const double s = static_cast<double>(i) / parts_of_edge;
-      const Eigen::Vector2d x = problem.follows_curve(row, degree)
-                                    ? edge.curve.at(s)
-                                    : Eigen::Vector2d((1 - s) * a + s * b);
+      const Eigen::Vector2d x = point_on_edge(problem, row, degree, s);
       std::string moved = ",";
       if (u) {
         const Eigen::Vector2d of_x =

@@ -47,7 +47,8 @@ struct RunSettings {
   std::string methods;  // empty: those of the paper
   std::vector<std::filesystem::path> problems;   // FCLIB files instead of meshes and scenes
   std::vector<std::filesystem::path> externals;  // declarations of other programs
-  std::vector<std::filesystem::path> scenes;     // empty: the default scene
+  std::vector<std::filesystem::path> scenes;     // empty: a deck's own, or the default scene
+  bool needs_scene = false;                      // no default scene of another body than ours
   std::optional<int> equal_steps;                // of a scene without load steps
   std::optional<int> figure;  // 3, 4 or 5: meshes and methods of the paper's figure
   Study study;

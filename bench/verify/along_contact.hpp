@@ -14,6 +14,15 @@ namespace airybench {
 using AlongEdge =
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, highest_stress_degree + 2>;
 
+// s: from 0 to 1 along an edge of the boundary, which follows its curve for stresses of this
+// degree.
+inline Eigen::Vector2d point_on_edge(const Problem& problem, int row, int degree, double s) {
+  const BoundaryEdge& edge = problem.mesh.boundary[row];
+  if (problem.follows_curve(row, degree)) return edge.curve.at(s);
+  const auto [start, end] = edge.vertices;
+  return (1 - s) * problem.mesh.vertices[start] + s * problem.mesh.vertices[end];
+}
+
 // Of the pressure, MPa, from the normal components of F_j, N. On a curve, where it is (k + 1) Σ B_j
 // F_j/|x′|, of its interpolant at ξ = j/k.
 inline AlongEdge pressure_along(const Problem& problem, int row, const AlongEdge& normal_forces) {

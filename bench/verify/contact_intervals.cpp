@@ -56,7 +56,7 @@ struct Pressures {
 
 void set_largest_pressure(const Pressures& all, const std::vector<bool>& asked,
                           FaceIntervals& result) {
-  constexpr double safety = 2, useful = 0.5;
+  constexpr double useful = 0.5;
   const Problem& problem = all.problem;
   const LargestPressure of_stress = largest_pressure(problem, all.stress, asked, all.sides);
   const double p = result.largest_pressure_MPa = of_stress.pressure_MPa;
@@ -67,13 +67,11 @@ void set_largest_pressure(const Pressures& all, const std::vector<bool>& asked,
   const Eigen::Vector2d& n = of_stress.normal;
   const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // n⊗n as a strain
   const double stiffness_MPa = nn.dot(elasticity_of(problem.compliance_of(t)) * nn),
-               own = std::sqrt(std::max(0.0, all.error.of_triangle_Nmm[t]) * stiffness_MPa /
-                               problem.area_mm2(t)),
-               from_afar = std::max(0.0, all.largest_MPa) * all.error.relative * all.error.relative,
-               delta = safety * (std::abs(p - of_u) + own + from_afar),
+               off = twice_estimated_error_MPa(problem, all.error, t, stiffness_MPa, p - of_u,
+                                               std::max(0.0, all.largest_MPa)),
                least = has_polygon(problem, all.stress.degree(), asked) ? of_stress.of_edge_MPa : p;
-  if (delta <= useful * p)
-    result.largest_pressure_within_MPa = Bracket{std::max(0.0, least - delta), p + delta};
+  if (off <= useful * p)
+    result.largest_pressure_within_MPa = Bracket{std::max(0.0, least - off), p + off};
 }
 
 // rows: of Mesh::boundary, in walking order. of_row: the states of their points, n per edge.
@@ -141,6 +139,16 @@ std::vector<ContactEnd> contact_ends(const DualSystem& system, const Eigen::Vect
 
 }  // namespace
 
+double twice_estimated_error_MPa(const Problem& problem, const ConstitutiveError& error,
+                                 int triangle, double stiffness_MPa, double difference_MPa,
+                                 double far_MPa) {
+  constexpr double safety = 2;
+  const double in_triangle = std::sqrt(std::max(0.0, error.of_triangle_Nmm[triangle]) *
+                                       stiffness_MPa / problem.area_mm2(triangle));
+  return safety *
+         (std::abs(difference_MPa) + in_triangle + far_MPa * error.relative * error.relative);
+}
+
 LargestPressure largest_pressure(const Problem& problem, const StressField& stress,
                                  const std::vector<bool>& asked,
                                  const std::vector<TriangleSide>& sides) {
@@ -166,10 +174,7 @@ LargestPressure largest_pressure(const Problem& problem, const StressField& stre
     peak.pressure_MPa = largest.value;
     peak.triangle = t;
     peak.normal = frame.normal;
-    const auto [a, b] = problem.mesh.boundary[row].vertices;
-    peak.at_mm = is_curved ? problem.mesh.boundary[row].curve.at(largest.s)
-                           : Eigen::Vector2d((1 - largest.s) * problem.mesh.vertices[a] +
-                                             largest.s * problem.mesh.vertices[b]);
+    peak.at_mm = point_on_edge(problem, row, stress.degree(), largest.s);
   }
   return peak;
 }

@@ -43,6 +43,13 @@ struct Bracket {
 };
 
 // Positions along a face count from its start; near the start of a closed face they may be < 0.
+// 2δ, MPa, of a largest value of σ that lies in a triangle, as of the pressure above. difference:
+// from that of Aε(u); stiffness: the largest square of such a value for σ:C:σ = 1; far: the size of
+// what errors elsewhere change.
+double twice_estimated_error_MPa(const Problem& problem, const ConstitutiveError& error,
+                                 int triangle, double stiffness_MPa, double difference_MPa,
+                                 double far_MPa);
+
 struct ContactEnd {
   int face = 0;  // from 0, in the order of boundary_chains()
   ContactState before, after;

@@ -11,6 +11,7 @@
 #include "tests/support/pieces.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/two_blocks.hpp"
+#include "tests/validation/shrink_fit.hpp"
 
 namespace airybench::face_intervals_test {
 namespace {
@@ -18,6 +19,7 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 using testing::add_block;
+using testing::ShrinkFit;
 
 struct Judged : testing::Solved {
   ResultantLifts lifts;
@@ -134,22 +136,8 @@ TEST(FaceIntervals, OfAStackOfBlocksAreWhatStaticsSays) {
 
 // Bodies of two materials, whose vertices do not match, on a curve.
 TEST(FaceIntervals, OfAShrinkFitHoldLamesForceAndPressure) {
-  constexpr double a = 10, b = 20, c = 30, delta = 0.01, E1 = 210000, E2 = 70000, nu = 0.3;
-  const auto modulus = [](double E) { return E / (1 - nu * nu); };
-  constexpr double ratio = nu / (1 - nu);
-  const double softness = b / modulus(E1) * ((b * b + a * a) / (b * b - a * a) - ratio) +
-                          b / modulus(E2) * ((c * c + b * b) / (c * c - b * b) + ratio),
-               pressure = delta / softness;
-  Scene scene;
-  scene.crown_radius_mm.reset();
-  scene.displacement_mm = {0, 0};
-  scene.materials = {{"hub", {E1, nu}}, {"rim", {E2, nu}}};
-  scene.contacts = {
-      {.between = {{{"contact:hub"}, {"contact:rim"}}}, .friction = 0, .clearance_mm = -delta}};
-  for (const char* side : {"displacement:x", "displacement:y"})
-    scene.boundary[side].support = BoundaryValues::Support::normal;
-  for (const char* face : {"contact:hub", "contact:rim"})
-    scene.boundary[face].contact.face = CircularWall{{0, 0}, b, CircularWall::Bodies::inside};
+  constexpr double a = ShrinkFit::a, b = ShrinkFit::b, c = ShrinkFit::c;
+  const double pressure = ShrinkFit::pressure_MPa();
   for (int degree = 1; degree <= 2; ++degree) {
     double before = 4 * pressure * pi / 2 * b;
     for (const int times : {1, 2, 4}) {
@@ -159,12 +147,8 @@ TEST(FaceIntervals, OfAShrinkFitHoldLamesForceAndPressure) {
         hub.push_back(std::lerp(a, b, k / (3. * times)));
         rim.push_back(std::lerp(b, c, k / (3. * times)));
       }
-      const testing::SectorEnds quarter = {{0, pi / 2}, {"displacement:x", "displacement:y"}};
-      Mesh mesh;
-      mesh.name = "rings";
-      add_ring_sector(mesh, "hub", hub, 6 * times, "force", "contact:hub", quarter);
-      add_ring_sector(mesh, "rim", rim, 8 * times, "contact:rim", "force", quarter);
-      const Judged judged(scene, mesh, degree);
+      const Judged judged(ShrinkFit::scene(), ShrinkFit::mesh(hub, 6 * times, rim, 8 * times),
+                          degree);
       const FaceIntervals& face = judged.face("contact:hub against contact:rim");
       expect_holds(face.normal_resultant_N, -pressure * pi / 2 * b, "force");
       const double now = width(face.normal_resultant_N);

@@ -13,6 +13,7 @@
 #include "tests/support/solved_scene.hpp"
 #include "tests/validation/committed_profiles.hpp"
 #include "tests/validation/edge_tractions.hpp"
+#include "tests/validation/shrink_fit.hpp"
 
 namespace airybench::two_bodies_closed_forms_test {
 namespace {
@@ -24,6 +25,7 @@ using testing::edge_tractions;
 using testing::EdgeTraction;
 using testing::expect_committed;
 using testing::fitted;
+using testing::ShrinkFit;
 
 using Solved = testing::SolvedScene;
 
@@ -47,28 +49,10 @@ std::vector<double> geometric(double from, double to, double growth) {
   return radii;
 }
 
-// Two rings, the inner one too large by δ: Lamé's pressure.
 TEST(ClosedForms, AShrinkFitHasLamesPressure) {
-  constexpr double a = 10, b = 20, c = 30, delta = 0.01, E1 = 210000, E2 = 70000, nu = 0.3;
-  const auto modulus = [](double E) { return E / (1 - nu * nu); };
-  constexpr double ratio = nu / (1 - nu);
-  const double softness = b / modulus(E1) * ((b * b + a * a) / (b * b - a * a) - ratio) +
-                          b / modulus(E2) * ((c * c + b * b) / (c * c - b * b) + ratio);
-  Scene scene;
-  scene.crown_radius_mm.reset();
-  scene.displacement_mm = {0, 0};
-  scene.materials = {{"hub", {E1, nu}}, {"rim", {E2, nu}}};
-  scene.contacts = {
-      {.between = {{{"contact:hub"}, {"contact:rim"}}}, .friction = 0, .clearance_mm = -delta}};
-  for (const char* side : {"displacement:x", "displacement:y"})
-    scene.boundary[side].support = BoundaryValues::Support::normal;
-  for (const char* face : {"contact:hub", "contact:rim"})
-    scene.boundary[face].contact.face = CircularWall{{0, 0}, b, CircularWall::Bodies::inside};
-  Mesh mesh;
-  mesh.name = "rings";
-  const testing::SectorEnds quarter = {{0, pi / 2}, {"displacement:x", "displacement:y"}};
-  add_ring_sector(mesh, "hub", geometric(a, b, 0.1), 16, "force", "contact:hub", quarter);
-  add_ring_sector(mesh, "rim", geometric(b, c, 0.06), 21, "contact:rim", "force", quarter);
+  constexpr double a = ShrinkFit::a, b = ShrinkFit::b, c = ShrinkFit::c;
+  const Scene scene = ShrinkFit::scene();
+  const Mesh mesh = ShrinkFit::mesh(geometric(a, b, 0.1), 16, geometric(b, c, 0.06), 21);
   for (const auto& [name, accuracy] :
        {std::pair("HYBRID", 0.01), {"HYBRID:k=2", 3e-3}, {"P2", 3e-3}, {"P3", 3e-3}}) {
     const Solved solved(scene, mesh, name);
@@ -79,7 +63,7 @@ TEST(ClosedForms, AShrinkFitHasLamesPressure) {
       const Reference reference = compute_reference(solved.system);
       resultant = *verify(solved.system, solved.solution, &reference).normal_resultant_N;
     }
-    EXPECT_NEAR(-resultant / (pi / 2 * b) / (delta / softness), 1, accuracy) << name;
+    EXPECT_NEAR(-resultant / (pi / 2 * b) / ShrinkFit::pressure_MPa(), 1, accuracy) << name;
   }
 }
 
