@@ -1,6 +1,6 @@
 # Makes a test of CTest of every suite of an executable, so that its cases share what they set up.
 # SPLIT "suite parts ...": suites in so many parts, which run beside each other. LONG "suite;...":
-# these are begun before others.
+# these are begun before others. ENVIRONMENT "NAME=VALUE;...": of each.
 execute_process(COMMAND ${EXECUTABLE} --gtest_list_tests OUTPUT_VARIABLE listed
                 COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX REPLACE "#[^\n]*" "" listed "${listed}")
@@ -25,8 +25,7 @@ foreach(line IN LISTS lines)
   endif()
   foreach(part RANGE 1 ${parts})
     set(name ${NAME}.${suite})
-    # Tests run beside each other, on machines of any speed: no sign of life in what they read.
-    set(environment "OPENBLAS_NUM_THREADS=1;AIRYBENCH_SILENT_S=86400")
+    set(environment "${ENVIRONMENT}")
     if(parts GREATER 1)
       string(APPEND name ".${part}of${parts}")
       math(EXPR index "${part} - 1")
