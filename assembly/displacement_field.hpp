@@ -57,9 +57,6 @@ Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u,
 // Adds a linear displacement, at x on the piece that a vertex belongs to.
 using Motion = std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int vertex)>;
 DisplacementField with_motion(const Problem& problem, DisplacementField w, const Motion& motion);
-// u = w + ρ: adds the rigid motion back, of free pieces theirs, too, and the motion with which
-// point supports have their displacements.
-DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w);
 
 // A ε(u), MPa, of degree p − 1.
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u);

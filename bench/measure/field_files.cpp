@@ -7,6 +7,7 @@
 
 #include "assembly/control_points.hpp"
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/total_displacement.hpp"
 #include "bench/measure/part_answer.hpp"
 #include "bench/measure/part_picture.hpp"
 #include "bench/measure/vtu.hpp"

@@ -10,6 +10,7 @@
 
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/rigid_contact.hpp"
+#include "assembly/total_displacement.hpp"
 #include "bench/measure/stress_samples.hpp"
 #include "bench/records/csv.hpp"
 #include "bench/verify/along_contact.hpp"

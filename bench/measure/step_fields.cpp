@@ -8,6 +8,7 @@
 #include <functional>
 #include <tuple>
 
+#include "assembly/total_displacement.hpp"
 #include "support/atomic_file.hpp"
 
 namespace airybench {

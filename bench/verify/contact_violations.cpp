@@ -4,6 +4,7 @@
 #include <map>
 
 #include "assembly/problem/load_scale.hpp"
+#include "assembly/total_displacement.hpp"
 #include "bench/verify/along_contact.hpp"
 
 namespace airybench {

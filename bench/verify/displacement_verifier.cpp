@@ -4,6 +4,7 @@
 
 #include "assembly/control_points.hpp"
 #include "assembly/rough_compliance.hpp"
+#include "assembly/total_displacement.hpp"
 #include "bench/verify/contact_violations.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/contact/coulomb_law.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "assembly/total_displacement.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"

@@ -9,6 +9,7 @@
 
 #include "assembly/control_points.hpp"
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/total_displacement.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/far_from_origin.hpp"

@@ -1,5 +1,7 @@
 #include "tests/support/exact_fields.hpp"
 
+#include "assembly/total_displacement.hpp"
+
 namespace airybench::testing {
 
 std::vector<ExactField> exact_fields(double E, double nu) {

@@ -8,6 +8,7 @@
 
 #include "assembly/control_points.hpp"
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/total_displacement.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/contact/condensed.hpp"

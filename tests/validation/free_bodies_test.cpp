@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "assembly/problem/pose.hpp"
+#include "assembly/total_displacement.hpp"
 #include "bench/verify/verifier.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/pieces.hpp"

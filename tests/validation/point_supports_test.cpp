@@ -3,6 +3,7 @@
 
 #include "assembly/problem/pose.hpp"
 #include "assembly/rigid_contact.hpp"
+#include "assembly/total_displacement.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/held_scenes.hpp"
 #include "tests/support/pieces.hpp"

@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "assembly/total_displacement.hpp"
 #include "bench/measure/part_answer.hpp"
 #include "bench/measure/part_picture.hpp"
 #include "bench/report/part_table.hpp"

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "assembly/control_points.hpp"
+#include "assembly/total_displacement.hpp"
 #include "bench/verify/verifier.hpp"
 #include "tests/bench/verify/solved.hpp"
 #include "tests/support/exact_fields.hpp"
