@@ -183,7 +183,7 @@ def pressures(part: Part, face: dict) -> list[tuple[np.ndarray, np.ndarray, np.n
 
     def spread(side: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> float:
         return sum((np.diff(base, axis=0) * np.diff(normal, axis=0)).sum() for base, _, normal in side)
-    return max(map(of_side, face["name"].split(" against ")), key=spread)
+    return max(map(of_side, face["labels"]), key=spread)
 
 
 def draw_pressures(axes: Axes, part: Part, limit: float, size: float) -> None:

@@ -131,7 +131,7 @@ class PartReader {
     std::vector<FaceAnswer> answers;
     for (const ContactFace& face : contact_faces(problem_)) {
       FaceAnswer answer;
-      answer.name = face.name;
+      answer.labels = face.labels;
       for (const int row : face.rows) {
         const int first = point_of_row_[static_cast<std::size_t>(row)];
         const double whole = length(row);
@@ -300,7 +300,8 @@ Json to_json(const LargestStress& largest) {
   return json;
 }
 Json to_json(const FaceAnswer& face) {
-  Json json = {{"name", face.name},
+  Json json = {{"name", face_name(face.labels)},
+               {"labels", face.labels},
                {"force_N", point(face.force_N)},
                {"normal_N", face.normal_N},
                {"tangential_N", face.tangential_N},

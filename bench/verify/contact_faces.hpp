@@ -10,11 +10,14 @@
 namespace airybench {
 
 struct ContactFace {
-  std::string name;       // "contact:sole", "contact:pin against contact:eye"
-  std::vector<int> rows;  // of Mesh::boundary; of a pair those of the label that is named first
+  std::vector<std::string> labels;  // "contact:sole"; of a pair two
+  std::vector<int> rows;            // of Mesh::boundary; of a pair those of the first label
 };
 
-// In the order of their names.
+// "contact:sole", "contact:pin against contact:eye".
+std::string face_name(const std::vector<std::string>& labels);
+
+// In the order of their labels.
 std::vector<ContactFace> contact_faces(const Problem& problem);
 
 // Per row of Mesh::boundary: is it one of the face's, of a pair on either body?

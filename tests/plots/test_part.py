@@ -37,7 +37,7 @@ def write_part(results: Path, **changes: object) -> None:
     write(results, "outline.csv", lines)
     write(results, "faces.csv", ["face,along_mm,x_mm,y_mm,pressure_MPa,shear_MPa,gap_mm,slip_mm,state"] +
           [f"contact:sole,{x},{x},0,{0.75 * x},0,0,0,stick" for x in (0, 2.5, 5, 7.5, 10)])
-    face = {"name": "contact:sole", "closed_mm": 10, "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
+    face = {"labels": ["contact:sole"], "closed_mm": 10, "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
     answer = {"faces": [face], "supports": [], "von_mises_MPa": {"value": 8, "at_mm": [10, 4]}}
     shown = {"name": "block", "case": "block--HYBRID", "assumptions": "block: plane strain; steel: E 210000 MPa",
              "notes": ["block.inp: not used: *PREPRINT (block.inp:3)"], "largest_pressure_is": "bounded",
@@ -70,8 +70,8 @@ class PartTest(FolderTest):
             self.assertIn(text, words)
         self.assertNotIn("this or more", words)
 
-    def test_a_pair_is_named_by_both_faces(self) -> None:
-        pair = {"name": "contact:sole against contact:ground", "closed_mm": 10,
+    def test_a_pair_has_the_pressure_of_either_label(self) -> None:
+        pair = {"labels": ["contact:sole", "contact:ground against its will"], "closed_mm": 10,
                 "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
         self.assertIn("7.5 MPa", self.words(faces=[pair]))
 

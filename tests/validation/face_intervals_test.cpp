@@ -32,7 +32,7 @@ struct Judged : testing::Solved {
   }
   const FaceIntervals& face(const std::string& name) const {
     for (std::size_t k = 0; k < lifts.faces.size(); ++k)
-      if (lifts.faces[k].name == name) return intervals.faces[k];
+      if (face_name(lifts.faces[k].labels) == name) return intervals.faces[k];
     throw std::invalid_argument(name);
   }
 };

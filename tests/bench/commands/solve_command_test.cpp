@@ -66,6 +66,7 @@ TEST_F(SolveCommand, ADeckWithPairsAndStepsIsAPath) {
   ASSERT_EQ(answer["faces"].size(), 1u);
   const Json& face = answer["faces"][0];
   EXPECT_EQ(face["name"], "contact:Smaster against contact:Sslave");
+  EXPECT_EQ(face["labels"].dump(), R"(["contact:Smaster","contact:Sslave"])");
   EXPECT_LT(face["normal_N"].get<double>(), -400);
   EXPECT_NEAR(face["length_mm"].get<double>(), 6, 1e-9);
   EXPECT_LE(std::abs(face["tangential_N"].get<double>()),
