@@ -34,27 +34,38 @@ std::string nearest_of(std::string_view word, const std::vector<std::string>& na
     return std::tolower(a) == std::tolower(b);
   };
   const auto distance_to = [&](std::string_view name) {
-    std::vector<std::size_t> before(name.size() + 1), now(before);  // Levenshtein's rows
+    // Levenshtein's rows, of the last three letters of word.
+    std::vector<std::size_t> earlier(name.size() + 1), before(earlier), now(earlier);
     for (std::size_t k = 0; k <= name.size(); ++k) before[k] = k;
-    for (std::size_t i = 1; i <= word.size(); ++i, before.swap(now)) {
+    for (std::size_t i = 1; i <= word.size(); ++i) {
       now[0] = i;
-      for (std::size_t k = 1; k <= name.size(); ++k)
+      for (std::size_t k = 1; k <= name.size(); ++k) {
         now[k] = std::min({before[k] + 1, now[k - 1] + 1,
                            before[k - 1] + (are_alike(word[i - 1], name[k - 1]) ? 0 : 1)});
+        if (i > 1 && k > 1 && are_alike(word[i - 1], name[k - 2]) &&
+            are_alike(word[i - 2], name[k - 1]))
+          now[k] = std::min(now[k], earlier[k - 2] + 1);
+      }
+      earlier.swap(before);
+      before.swap(now);
     }
     return before.back();
   };
   std::string nearest;
   std::size_t least = 0;
+  bool is_only = true;
   for (const std::string& name : names) {
     const std::size_t distance = word.size() > 100 ? name.size() : distance_to(name);
     if (distance > std::max<std::size_t>(name.size() / 3, 1)) continue;
     if (nearest.empty() || distance < least) {
       nearest = name;
       least = distance;
+      is_only = true;
+    } else if (distance == least && name != nearest) {
+      is_only = false;
     }
   }
-  return nearest;
+  return is_only ? nearest : "";
 }
 
 std::string perhaps(std::string_view word, const std::vector<std::string>& names) {

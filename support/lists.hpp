@@ -29,10 +29,10 @@ struct FirstItem {
 };
 FirstItem first_item(std::string_view list, char separator);
 
-// The name that takes the fewest letters changed, added or left out to become word, at most a third
-// of its own, capitals or not; empty if there is none.
+// The name that becomes word with the fewest letters changed, added, left out or swapped with the
+// next, at most a third of its own, capitals or not; empty if there is none, or several.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& names);
-// ", perhaps NAME" with that name; empty if there is none.
+// ", perhaps NAME" with that name, or empty.
 std::string perhaps(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace airybench

@@ -130,6 +130,7 @@ void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
   for (const auto& [label, values] : conditions)
     if (!labels.contains(label))
       throw TransformError(label + ": no such group in the mesh " + mesh.name +
+                           perhaps(label, {labels.begin(), labels.end()}) +
                            " (its groups: " + joined(labels) + ")");
 }
 

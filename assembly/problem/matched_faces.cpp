@@ -32,6 +32,7 @@ void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
         if (!groups.contains(label))
           refuse("contacts: between", label,
                  "is no contact group of the mesh " + mesh.name +
+                     perhaps(label, {groups.begin(), groups.end()}) +
                      " (its contact groups: " + (valid.empty() ? "none" : valid) + ")");
         if (!paired.insert(label).second)
           refuse("contacts: between", label, "again (allowed: every group in one pair)");

@@ -196,9 +196,9 @@ void check_scale(const Scene& scene, Problem& problem) {
 std::vector<Material> materials(const Scene& scene, const Mesh& mesh) {
   for (const auto& [body, material] : scene.materials)
     if (std::ranges::count(mesh.body_names, body) == 0)
-      fail(
-          scene, "materials", body,
-          "is no body of the mesh " + mesh.name + " (its bodies: " + joined(mesh.body_names) + ")");
+      fail(scene, "materials", body,
+           "is no body of the mesh " + mesh.name + perhaps(body, mesh.body_names) +
+               " (its bodies: " + joined(mesh.body_names) + ")");
   std::vector<Material> result;
   for (std::size_t k = 0; k < mesh.body_names.size(); ++k) {
     const auto own = scene.materials.find(mesh.body_names[k]);
@@ -292,6 +292,13 @@ void check_groups(const Scene& scene, const Mesh& mesh) {
              [&] { check_labels(scene.later_steps[k].boundary, mesh); });
 }
 
+// After the groups of contacts: a group that is misspelt there has no partner.
+void check_faces(const Scene& scene) {
+  for (const auto& [label, values] : scene.boundary)
+    if (values.contact.face && !values.contact.wall && !scene.wall && !is_paired(scene, label))
+      fail(scene, "boundary: " + label, "face", "without a wall (allowed: with one)");
+}
+
 // Where every contact group presses on another, there is no wall that these keys could place.
 void check_keys_of_walls(const Scene& scene, const Mesh& mesh) {
   const auto is_at_wall = [&](const BoundaryEdge& edge) {
@@ -314,6 +321,7 @@ ReachableContact contact_of(const Scene& scene, Mesh mesh) {
   check_keys_of_walls(scene, mesh);
   MatchedFaces faces =
       of_scene(scene, "", [&] { return with_matched_faces(std::move(mesh), scene); });
+  check_faces(scene);
   return of_scene(scene, "boundary",
                   [&] { return with_reachable_contact(std::move(faces), scene); });
 }

@@ -56,15 +56,10 @@ void check_contacts(const Scene& scene) {
                "of a group in contacts (allowed: face; friction and clearance_mm of the pair)");
 }
 
-void check_faces(const Scene& scene) {
-  constexpr const char* why = "without a wall (allowed: with one)";
-  bool used = scene.wall.has_value();
-  for (const auto& [label, values] : scene.boundary) {
-    used |= values.contact.wall.has_value();
-    if (values.contact.face && !values.contact.wall && !scene.wall && !is_paired(scene, label))
-      fail(scene, "boundary: " + label, "face", why);
-  }
-  if (scene.face && !used) fail(scene, "face", "given", why);
+void check_common_face(const Scene& scene) {
+  const auto has_wall = [](const auto& group) { return group.second.contact.wall.has_value(); };
+  if (scene.face && !scene.wall && std::ranges::none_of(scene.boundary, has_wall))
+    fail(scene, "face", "given", "without a wall (allowed: with one)");
 }
 
 void check_contacts_of_step(const Scene& scene, std::size_t k) {
@@ -137,7 +132,7 @@ void check_values(const Scene& scene) {
   of_scene(scene, "", [&] { check_curve("wall", scene.wall); });
   of_scene(scene, "", [&] { check_curve("face", scene.face); });
   check_contacts(scene);
-  check_faces(scene);
+  check_common_face(scene);
   for (const PointSupport& point : scene.point_supports)
     for (const double number :
          {point.at_mm.x(), point.at_mm.y(), point.displacement_mm[0].value_or(0),

@@ -105,11 +105,11 @@ TEST(BoundaryValues, ContradictionsAreRefused) {
   const auto press = [](BoundaryValues& v) { v.pressure_MPa = LinearValue<double>{{1, 1}}; };
   const auto move = [](BoundaryValues& v) { v.displacement_mm = constant(1, 0); };
   const auto roll = [](BoundaryValues& v) { v.support = Support::normal; };
-  const std::string groups =
-      ": no such group in the mesh small block (its groups: contact, displacement:root, "
-      "force:bottom, force:top)";
-  EXPECT_EQ(with("force:tip", pull), "s.json: boundary: force:tip" + groups);
-  EXPECT_EQ(with("top", press), "s.json: boundary: top" + groups);
+  const std::string none = ": no such group in the mesh small block",
+                    groups = " (its groups: contact, displacement:root, force:bottom, force:top)";
+  EXPECT_EQ(with("force:tip", pull),
+            "s.json: boundary: force:tip" + none + ", perhaps force:top" + groups);
+  EXPECT_EQ(with("top", press), "s.json: boundary: top" + none + groups);
   EXPECT_EQ(with("displacement:root", pull),
             "s.json: boundary: displacement:root: traction_MPa (allowed: on a force boundary)");
   EXPECT_EQ(with("contact", press),

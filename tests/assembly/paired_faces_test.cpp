@@ -101,10 +101,12 @@ TEST(PairedFaces, WhatCannotBeIsRefusedInALine) {
     change(scene);
     return testing::complaint_of<SceneError>([&] { pose(scene, mesh); });
   };
-  EXPECT_EQ(
-      complaint([](Scene& s) { s.contacts[0].between[1] = {"contact:bse"}; }),
-      "default scene: contacts: between: contact:bse is no contact group of the mesh blocks (its "
-      "contact groups: contact:base, contact:block)");
+  EXPECT_EQ(complaint([](Scene& s) {
+              s.contacts[0].between[1] = {"contact:bse"};
+              s.boundary["contact:base"].contact.face = FlatWall{{0, 0}, {0, 1}};  // of a pair
+            }),
+            "default scene: contacts: between: contact:bse is no contact group of the mesh blocks, "
+            "perhaps contact:base (its contact groups: contact:base, contact:block)");
   EXPECT_EQ(
       complaint([](Scene& s) { s.contacts.push_back(s.contacts[0]); }),
       "default scene: contacts: between: contact:block again (allowed: every group in one pair)");
@@ -271,8 +273,9 @@ TEST(PairedFaces, AGroupThatFacesNothingMayHaveValues) {
   EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(scene, mesh); }), "no complaint");
   scene.boundary["contact:sied"] = {};
   EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(scene, mesh); }),
-            "default scene: boundary: contact:sied: no such group in the mesh blocks (its groups: "
-            "contact:base, contact:block, contact:side, displacement:floor, displacement:head, "
+            "default scene: boundary: contact:sied: no such group in the mesh blocks, perhaps "
+            "contact:side (its groups: contact:base, contact:block, contact:side, "
+            "displacement:floor, displacement:head, "
             "force)");
 }
 
