@@ -22,7 +22,9 @@ namespace {
 
 std::size_t catalogue_row(std::string_view name, std::string_view item) {
   const auto found = std::find(catalogue_mesh_names.begin(), catalogue_mesh_names.end(), name);
-  if (found == catalogue_mesh_names.end()) refuse_item(item, "not in the catalogue");
+  if (found == catalogue_mesh_names.end())
+    refuse_item(item, "not in the catalogue" + perhaps(name, {catalogue_mesh_names.begin(),
+                                                              catalogue_mesh_names.end()}));
   return static_cast<std::size_t>(found - catalogue_mesh_names.begin());
 }
 

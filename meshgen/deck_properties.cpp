@@ -126,6 +126,15 @@ bool contains(const auto& words, std::string_view word) {
   return std::ranges::find(words, word) != words.end();
 }
 
+// ", perhaps *DLOAD", or empty.
+std::string perhaps_keyword(const std::string& word) {
+  std::vector<std::string> names(idle_keywords.begin(), idle_keywords.end());
+  for (const ReadKeyword& read : read_keywords) names.emplace_back(read.name);
+  for (const auto& [name, why] : refused_keywords) names.emplace_back(name);
+  const std::string nearest = nearest_of(word, names);
+  return nearest.empty() ? "" : ", perhaps *" + nearest;
+}
+
 const DeckLine& only_line(const DeckBlock& block, const char* what) {
   if (block.data.size() != 1)
     block.line.fail(fmt::format("*{} with {} lines (allowed: one, {})", block.keyword,
@@ -184,7 +193,8 @@ class PropertyReader {
           "*{}{} (allowed in a deck without --scene: linear elasticity, supports, loads, contact "
           "pairs with friction, static steps; with one its mesh alone is read)",
           block.keyword,
-          known == refused_keywords.end() ? "" : fmt::format(": {}", known->second)));
+          known == refused_keywords.end() ? perhaps_keyword(block.keyword)
+                                          : fmt::format(": {}", known->second)));
     }
     if (unused.empty()) return;
     std::vector<std::string> all;

@@ -91,7 +91,8 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
            {"--wrong", "--wrong (valid: "},
            {"extra", "extra (valid: "},
            {"--mesh=nowhere.msh", "nowhere.msh: cannot be opened: No such file or directory\n"},
-           {"--mesh=Mesh9", "Mesh9"},
+           {"--mesh=Mesh9", "mesh 'Mesh9': not in the catalogue (valid: Mesh0..Mesh7, "},
+           {"--mesh=mesh0", "mesh 'mesh0': not in the catalogue, perhaps Mesh0 (valid: "},
            {"--mesh=broken.msh",
             std::filesystem::exists(testing::meshgen_executable())
                 ? "broken.msh: no mesh (what can be read: *.geo, *.msh, "
@@ -105,6 +106,7 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
            {"--method=HYBRD", "no method matches 'HYBRD', perhaps HYBRID (valid: "},
            {"--metod=P2", "--metod=P2, perhaps --method (valid: "},
            {"solv part.geo", "solv: no such command, perhaps solve (allowed: advise, "},
+           {"sovle part.geo", "sovle: no such command, perhaps solve (allowed: advise, "},
            {"solve part.geo --eror=1%", "--eror=1%, perhaps --error (valid: "},
            {"--figure=4 --mesh=Mesh0", "--mesh excludes --figure"},
            {"--figure=4 --method=3STEPD", "--method excludes --figure"},
