@@ -62,19 +62,22 @@ std::string refusal_of(const std::system_error& error) {
 }
 
 int run(int argc, char** argv) {
+  bool has_resume = false;
   try {
     airybench::restart_with_better_blas_core(argv);
     const auto found = argc > 1 ? commands.find(argv[1]) : commands.end();
     if (argc > 1 && found == commands.end()) refuse_misspelt_command(argv[1]);
-    return found == commands.end() ? airybench::run_command(argc, argv)
-                                   : found->second(argc - 1, argv + 1);
+    has_resume = found == commands.end();
+    return has_resume ? airybench::run_command(argc, argv) : found->second(argc - 1, argv + 1);
   } catch (const airybench::HelpRequested& help) {
     std::fputs(help.what(), stdout);
     return airybench::all_ok;
   } catch (const airybench::Interrupted& interrupted) {
     return complain(
-        fmt::format("{}: what was measured by then is in the output folder; --resume goes on",
-                    interrupted.what()),
+        fmt::format("{}{}", interrupted.what(),
+                    has_resume
+                        ? ": what was measured by then is in the output folder; --resume goes on"
+                        : ""),
         128 + interrupted.signal);
   } catch (const airybench::InputError& error) {
     return complain(error.what(), airybench::wrong_usage);

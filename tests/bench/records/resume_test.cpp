@@ -211,6 +211,18 @@ TEST(Interrupt, BeforeTheFirstRecordLeavesTheEarlierRun) {
   EXPECT_EQ(bench.records().size(), 1u);
 }
 
+TEST(Interrupt, OfASolveNamesTheSignalOnly) {
+  const BenchCommand bench;
+  testing::write_text(bench.path("tooth.json"), "{}");
+  BackgroundRun run(bench, "solve Mesh3 tooth.json --error=0.001% --out=o");
+  wait_for([&] { return !descendants(run.pid()).empty(); });
+  const int status = run.end(SIGINT);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 128 + SIGINT);
+  EXPECT_TRUE(bench.content("bg_err.txt").ends_with("bench: ended by SIGINT\n"))
+      << bench.content("bg_err.txt");
+}
+
 TEST(Shards, JoinToTheWhole) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(six + "--out=whole").code, 0);
