@@ -3,7 +3,7 @@
 
     part.py RESULTS_DIR [--html] [--vector]
 
-figures/part.png: the von Mises stress, the outline displaced, the loads, the pressure on contact faces.
+figures/part.png: the von Mises stress, the outline displaced, supports, loads, the pressure on contact faces.
 --html: also part.html, which has the picture and all that `bench solve` prints, and fetches nothing.
 --vector: the picture also as .svg and .pdf. Exit 2: wrong input, or a folder that cannot be written;
 one line says which.
@@ -47,6 +47,9 @@ PRESSURE = ROLE["contact"]["color"]
 NARROW, AROUND = 0.08, 1.5  # contact that is drawn enlarged, too: of the body's size; around it, of its length
 TALLEST, WORDS = 0.12, 0.04  # the largest pressure, what it is: of the body's size
 COMB_PT = 6     # between the lines that fill a pressure
+TRIANGLE = np.array([(0, 0), (-0.9, -1.5), (0.9, -1.5), (0, 0)])  # below a point that is held
+IN_POINT = dict(linestyle="none", markersize=13, markerfacecolor="white", markeredgecolor="black",
+                markeredgewidth=0.8, zorder=7)
 NOTE = dict(fontsize=TYPE, path_effects=[withStroke(linewidth=2.5, foreground="white")], zorder=8)
 
 
@@ -149,6 +152,15 @@ def draw_outline(axes: Axes, part: Part) -> None:
                 drawn.set_path_effects([TICKED])
         if role == "rollers" and len(edges):
             axes.plot(*edges[:, edges.shape[1] // 2, :2].T, **ROLLER, zorder=4)
+
+
+def draw_point_supports(axes: Axes, part: Part, view: np.ndarray) -> None:
+    """A triangle per component that is held, its tip in the point, on the side away from the middle."""
+    for support in part.answer["point_supports"]:
+        inward = np.where(np.array(support["at_mm"]) > view.mean(0), -1, 1)
+        for component, shape in enumerate((TRIANGLE[:, ::-1], TRIANGLE)):
+            if support["displacement_mm"][component] is not None:
+                axes.plot(*support["at_mm"], **IN_POINT, marker=inward[component] * shape, clip_on=False)
 
 
 def enlargement(part: Part) -> float | None:
@@ -324,6 +336,7 @@ def draw(part: Part) -> Figure:
     axes = view_at(LEFT + (room - height * wide / high) / 2, top, height * wide / high, height, view)
     axes.spines[:].set_visible(False)
     draw_displaced(axes, part, times)
+    draw_point_supports(axes, part, view)
     draw_loads(axes, part, load)
     if near is not None:
         axes.add_patch(Rectangle(near[0], *(near[1] - near[0]), fill=False, linewidth=0.8, zorder=8))
@@ -340,6 +353,7 @@ def draw_legend(figure: Figure, part: Part, times: float | None, load: float, ha
     edge = ROLE["force"]
     lines = (("held", "displacement" in part.roles, ROLE["displacement"] | {"path_effects": [TICKED]}),
              ("on rollers", "rollers" in part.roles, edge | ROLLER | {"linestyle": "-"}),
+             ("held in a point", bool(part.answer["point_supports"]), IN_POINT | {"marker": TRIANGLE}),
              ("contact", "contact" in part.roles, ROLE["contact"]),
              (f"outline, displacement × {times or 0:g}", times is not None, OUTLINE),
              (f"load, up to {load:.3g} MPa", load > 0, edge | {"marker": ">", "markersize": 4}))

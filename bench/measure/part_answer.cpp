@@ -42,6 +42,7 @@ class PartReader {
     PartAnswer answer;
     answer.faces = faces();
     answer.supports = supports();
+    answer.point_supports = problem_.loads.points;
     if (!problem_.free.motions.empty())
       answer.free_motion = words_of_open_motions(rigid_contact(problem_));
     if (w && answer.free_motion.empty())
@@ -299,6 +300,12 @@ Json to_json(const LargestStress& largest) {
     json["unbounded"] = {{"what", place->what}, {"at_mm", point(place->at_mm)}};
   return json;
 }
+Json to_json(const PointSupport& support) {
+  Json held = Json::array();
+  for (const std::optional<double>& u : support.displacement_mm)
+    held.push_back(u ? Json(*u) : Json());
+  return {{"at_mm", point(support.at_mm)}, {"displacement_mm", held}};
+}
 Json to_json(const FaceAnswer& face) {
   Json json = {{"name", face_name(face.labels)},
                {"labels", face.labels},
@@ -346,10 +353,13 @@ Eigen::Vector2d principal_stresses(const Eigen::Vector3d& s) {
 }
 
 Json to_json(const PartAnswer& answer) {
-  Json json = {{"faces", Json::array()}, {"supports", Json::array()}};
+  Json json = {
+      {"faces", Json::array()}, {"supports", Json::array()}, {"point_supports", Json::array()}};
   for (const FaceAnswer& face : answer.faces) json["faces"].push_back(to_json(face));
   for (const SupportAnswer& support : answer.supports)
     json["supports"].push_back({{"name", support.name}, {"force_N", point(support.force_N)}});
+  for (const PointSupport& support : answer.point_supports)
+    json["point_supports"].push_back(to_json(support));
   if (answer.displacement_mm) json["displacement_mm"] = to_json(*answer.displacement_mm);
   if (!answer.free_motion.empty()) json["free_motion"] = answer.free_motion;
   json["von_mises_MPa"] = to_json(answer.von_mises);

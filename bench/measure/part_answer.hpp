@@ -51,6 +51,7 @@ struct LargestStress : ValueAt {  // MPa
 struct PartAnswer {
   std::vector<FaceAnswer> faces;
   std::vector<SupportAnswer> supports;
+  std::vector<PointSupport> point_supports;
   std::optional<ValueAt> displacement_mm;
   std::string free_motion;  // that nothing determines, nor the displacement; empty: there is none
   LargestStress von_mises, principal;  // principal: the largest by magnitude, with its sign

@@ -38,7 +38,7 @@ def write_part(results: Path, **changes: object) -> None:
     write(results, "faces.csv", ["face,along_mm,x_mm,y_mm,pressure_MPa,shear_MPa,gap_mm,slip_mm,state"] +
           [f"contact:sole,{x},{x},0,{0.75 * x},0,0,0,stick" for x in (0, 2.5, 5, 7.5, 10)])
     face = {"labels": ["contact:sole"], "closed_mm": 10, "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
-    answer = {"faces": [face], "supports": [], "von_mises_MPa": {"value": 8, "at_mm": [10, 4]}}
+    answer = {"faces": [face], "supports": [], "point_supports": [], "von_mises_MPa": {"value": 8, "at_mm": [10, 4]}}
     shown = {"name": "block", "case": "block--HYBRID", "assumptions": "block: plane strain; steel: E 210000 MPa",
              "notes": ["block.inp: not used: *PREPRINT (block.inp:3)"], "largest_pressure_is": "bounded",
              "error_total": 0.009, "report": REPORT}
@@ -68,12 +68,23 @@ class PartTest(FolderTest):
                      "7.5 MPa", "largest 8 MPa", "outline, displacement × 5", "load, up to 5 MPa", "held",
                      "von Mises stress, MPa"):
             self.assertIn(text, words)
-        self.assertNotIn("this or more", words)
+        for text in ("this or more", "held in a point"):
+            self.assertNotIn(text, words)
 
     def test_a_pair_has_the_pressure_of_either_label(self) -> None:
         pair = {"labels": ["contact:sole", "contact:ground against its will"], "closed_mm": 10,
                 "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
         self.assertIn("7.5 MPa", self.words(faces=[pair]))
+
+    def test_points_that_are_held_have_a_triangle_per_component(self) -> None:
+        write_part(self.results, point_supports=[{"at_mm": [0, 0], "displacement_mm": [0, 0.1]},
+                                                 {"at_mm": [10, 4], "displacement_mm": [None, 0]}])
+        figure = part.draw(part.read_part(self.results))
+        markers = [(line.get_xydata()[0], line.get_marker()) for line in figure.axes[0].lines
+                   if isinstance(line.get_marker(), np.ndarray)]
+        self.assertEqual([[*at, *np.sign(shape.sum(0))] for at, shape in markers],
+                         [[0, 0, -1, 0], [0, 0, 0, -1], [10, 4, 0, 1]])
+        self.assertIn("held in a point", [text.get_text() for text in figure.legends[0].get_texts()])
 
     def test_what_is_unbounded_has_no_number(self) -> None:
         place = {"what": "a re-entrant corner", "at_mm": [0, 4]}

@@ -175,7 +175,10 @@ TEST_F(SolveCommand, SingleNodesTakeOutARigidMotion) {
     text.replace(text.find(pull), pull.size(), loads);
     testing::write_text(bench_.path("free.inp"), text);
   };
-  for (const std::string held : {"1, 1, 2\n6, 2\n", "Nbottom, 2\n13, 1\n"}) {
+  for (const auto& [held, points] : std::vector<std::array<std::string, 2>>{
+           {"1, 1, 2\n6, 2\n", R"([{"at_mm":[0.0,0.0],"displacement_mm":[0.0,0.0]},)"
+                               R"({"at_mm":[10.0,0.0],"displacement_mm":[null,0.0]}])"},
+           {"Nbottom, 2\n13, 1\n", R"([{"at_mm":[0.0,4.0],"displacement_mm":[0.0,null]}])"}}) {
     write(held, both_ends);
     const Json answer = solved("free.inp");
     EXPECT_NEAR(answer["von_mises_MPa"]["value"].get<double>(), 100, 1e-6) << held;
@@ -183,6 +186,7 @@ TEST_F(SolveCommand, SingleNodesTakeOutARigidMotion) {
                 100 / 70000. * std::hypot(10, 0.33 * 4), 1e-9)
         << held;
     EXPECT_EQ(answer["displacement_mm"]["at_mm"].dump(), "[10.0,4.0]") << held;
+    EXPECT_EQ(answer["point_supports"].dump(), points);
     for (const Json& support : answer["supports"])
       EXPECT_NEAR(support["force_N"][1].get<double>(), 0, 1e-6) << held;
     EXPECT_NE(result_.err.find("is held alone: it takes out a rigid motion, and no force"),
