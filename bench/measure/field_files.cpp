@@ -338,8 +338,9 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
   write(".stress.csv", stress_csv(problem, stress));
   write(".boundary.csv", boundary_csv(problem));
   const bool is_part = fields.solution.displacement.cols() == 0;  // else F_C has other points
-  write_if(is_part, ".answer.json", [&] { return json_text(to_json(part_answer(fields))); });
-  write_if(is_part, ".faces.csv", [&] { return faces_csv(fields, contact); });
+  const PartFiles part = is_part ? part_files(fields, contact) : PartFiles();
+  write_if(is_part, ".answer.json", [&] { return json_text(to_json(part.answer)); });
+  write_if(is_part, ".faces.csv", [&] { return part.faces_csv; });
   write_if(fields.picture, ".von_mises.csv", [&] { return von_mises_csv(fields); });
   write_if(fields.picture, ".outline.csv",
            [&] { return outline_csv(problem, stress.degree(), u); });

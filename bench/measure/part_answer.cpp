@@ -67,6 +67,7 @@ class PartReader {
     return answer;
   }
 
+  // Gap, slip and state are those of the nearest contact point.
   std::string faces_csv(const ContactPicture& contact) const {
     std::string text = "face,along_mm,x_mm,y_mm,pressure_MPa,shear_MPa,gap_mm,slip_mm,state\n";
     const int m = system_.contact.components, n = system_.contact.per_edge;
@@ -329,12 +330,10 @@ Json to_json(const FaceAnswer& face) {
 
 }  // namespace
 
-// Gap, slip and state are those of the nearest contact point.
-std::string faces_csv(const SolvedFields& fields, const ContactPicture& contact) {
-  return PartReader(fields).faces_csv(contact);
+PartFiles part_files(const SolvedFields& fields, const ContactPicture& contact) {
+  const PartReader part(fields);
+  return {part.answer(fields.w), part.faces_csv(contact)};
 }
-
-PartAnswer part_answer(const SolvedFields& fields) { return PartReader(fields).answer(fields.w); }
 
 double von_mises(const Problem& problem, int triangle, const Eigen::Vector3d& stress) {
   const std::vector<double>& poisson = problem.poisson_zz;

@@ -57,11 +57,14 @@ struct PartAnswer {
   LargestStress von_mises, principal;  // principal: the largest by magnitude, with its sign
 };
 
-// Of the body; stresses are the method's own.
-PartAnswer part_answer(const SolvedFields& fields);
+struct PartFiles {
+  PartAnswer answer;
+  std::string faces_csv;  // NAME.faces.csv of field_files.hpp
+};
+
+// Of the body; stresses are the method's own. contact: of these fields.
+PartFiles part_files(const SolvedFields& fields, const ContactPicture& contact);
 Json to_json(const PartAnswer& answer);
-// NAME.faces.csv of field_files.hpp; contact: of these fields.
-std::string faces_csv(const SolvedFields& fields, const ContactPicture& contact);
 
 // √(σ:σ 3/2 − …) of (xx, yy, xy) and σ_zz = ν (σ_xx + σ_yy).
 double von_mises(const Eigen::Vector3d& stress, double poisson_zz);

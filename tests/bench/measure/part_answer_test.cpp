@@ -27,7 +27,9 @@ class OfTooth : public ::testing::TestWithParam<int> {
  protected:
   const testing::Solved solved_{Scene{}, testing::small_tooth(6, 4), GetParam()};
   const SolvedFields fields_{solved_.system, solved_.hybrid, solved_.w, nullptr, nullptr, {}};
-  const PartAnswer answer_ = part_answer(fields_);
+  const PartFiles files_ =
+      part_files(fields_, contact_picture(solved_.system, solved_.hybrid, solved_.w));
+  const PartAnswer& answer_ = files_.answer;
 };
 
 TEST_P(OfTooth, ForcesAreThoseOfTheLawAndInBalance) {
@@ -99,8 +101,7 @@ TEST_P(OfTooth, TheOutlineHasEveryEdge) {
 
 // The pressures of the file, integrated by Simpson's rule over each half edge.
 TEST_P(OfTooth, TheFileOfFacesHasThePressure) {
-  std::istringstream lines(
-      faces_csv(fields_, contact_picture(solved_.system, solved_.hybrid, solved_.w)));
+  std::istringstream lines(files_.faces_csv);
   std::vector<std::vector<double>> rows;
   std::string line;
   std::getline(lines, line);
