@@ -47,6 +47,8 @@ def run_shown(doc: str, add_arguments: Callable[[argparse.ArgumentParser], objec
     except RecordsError as error:
         fail(error)
     except OSError as error:
+        if error.filename is None and sys.__stdout__ is not None:  # what its buffer holds would fail at exit, too
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.__stdout__.fileno())
         fail(f"{error.filename or 'standard output'}: {error.strerror}; expected {expected}")
     except MemoryError:
         fail("out of memory")

@@ -107,8 +107,10 @@ class MessagesTest(FolderTest):
         draw = f"'{sys.executable}' '{figures.__file__}' '{self.results}' --only=table1"
         for streams, status, said in ((">&-", 0, ""), ("<&- >&- 2>&-", 0, ""), (">/dev/full", 2, "figures.py: standard "
                                       "output: No space left on device; expected a folder to write to\n")):
-            ran = subprocess.run(["bash", "-c", f"{draw} {streams}"], text=True, capture_output=True, check=False)
-            self.assertEqual((ran.returncode, ran.stderr), (status, said), streams)
+            for unbuffered in ("", "1"):
+                ran = subprocess.run(["bash", "-c", f"{draw} {streams}"], text=True, capture_output=True, check=False,
+                                     env=os.environ | {"PYTHONUNBUFFERED": unbuffered})
+                self.assertEqual((ran.returncode, ran.stderr), (status, said), streams)
 
 
 class MadeTest(FolderTest):
