@@ -117,12 +117,6 @@ TEST(EdgeCurve, FitsATriangleUntilItHidesAPartOfItself) {
   EXPECT_FALSE(fits_at(45));
 }
 
-TEST(Arcs, AreFoundOnRings) {
-  const Mesh mesh = ring();
-  EXPECT_LT(off_circles(mesh, 1, 3), 1e-11);
-  validate(mesh);
-}
-
 TEST(Arcs, AreFoundInRoundedCoordinates) {
   for (const double unit : {1e-9, 1e-6}) {
     Mesh mesh = small_ring(30, 2, 1, 3);

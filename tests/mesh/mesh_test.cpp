@@ -89,58 +89,43 @@ void add_another(Mesh& mesh) {
 }
 
 struct Wrong {
-  const char* name;
   void (*change)(Mesh&);
-  std::string complaint;  // after the mesh's name
+  std::vector<std::string> named;
 };
 
 TEST(MeshValidate, NamesWhatIsWrong) {
   const std::vector<Wrong> cases = {
-      {"no triangles", [](Mesh& m) { m.triangles.clear(), m.triangle_body.clear(); },
-       "no triangles; at least one is needed"},
-      {"triangle without body", [](Mesh& m) { m.triangle_body.pop_back(); },
-       "every triangle needs a body: 7 bodies for 8 triangles"},
-      {"not a number", [](Mesh& m) { m.vertices[6].y() = std::nan(""); },
-       "vertex 7: coordinates must be finite numbers"},
-      {"infinite", [](Mesh& m) { m.vertices[6].y() = INFINITY; },
-       "vertex 7: coordinates must be finite numbers"},
-      {"vertex too large", [](Mesh& m) { m.triangles[2][1] = 8; },
-       "triangle 3: vertex 9 does not exist (1..8)"},
-      {"vertex too small", [](Mesh& m) { m.triangles[2][1] = -1; },
-       "triangle 3: vertex 0 does not exist (1..8)"},
-      {"body out of range", [](Mesh& m) { m.triangle_body[7] = 1; },
-       "triangle 8: body 2 does not exist (1..1)"},
-      {"flat", [](Mesh& m) { m.vertices[6].y() = 0; }, "triangle 1 at [0.5, 0]: zero area"},
-      {"numerically flat", [](Mesh& m) { m.vertices[6].y() = 1e-14; },
-       "triangle 1 at [0.5, 3.33333e-15]: zero area"},
-      {"all vertices in one place",
-       [](Mesh& m) { std::fill(m.vertices.begin(), m.vertices.end(), Eigen::Vector2d(1, 1)); },
-       "triangle 1 at [1, 1]: two of its vertices are in one place"},
-      {"inverted", [](Mesh& m) { std::swap(m.triangles[3][0], m.triangles[3][1]); },
-       "triangle 4 at [0.166667, 0.5]: inverted (its vertices must run counter-clockwise)"},
-      {"dangling vertex", [](Mesh& m) { m.vertices.emplace_back(0.2, 0.1); },
-       "vertex 9 at [0.2, 0.1]: dangling (in no triangle)"},
-      {"edge of three triangles", [](Mesh& m) { add_triangle(m, 0.7, 0.6, 4, 8, 1); },
-       "edge 2-5 at [1, 0.5]: shared by 3 triangles; at most two can meet: elements overlap, or "
-       "are given twice"},
-      {"overlapping triangles", [](Mesh& m) { add_triangle(m, 0.5, 2, 0, 1, 8); },
-       "edge 1-2 at [0.5, 0]: its two triangles overlap"},
-      {"boundary vertex out of range", [](Mesh& m) { m.boundary[0].vertices[1] = 8; },
-       "boundary edge 1-9: a vertex does not exist (1..8)"},
-      {"boundary edge clockwise",
-       [](Mesh& m) { std::swap(m.boundary[2].vertices[0], m.boundary[2].vertices[1]); },
-       "boundary edge 6-3 at [2, 0.5]: walked clockwise; the body must lie on its left"},
-      {"boundary edge inside", [](Mesh& m) { add_edge(m, 1, 4, force); },
-       "boundary edge 2-5 at [1, 0.5]: not on the boundary of the triangles"},
-      {"boundary edge twice", [](Mesh& m) { add_edge(m, 1, 2, contact); },
-       "boundary edge 2-3 at [1.5, 0]: given twice"},
-      {"boundary edge without role", [](Mesh& m) { m.boundary.erase(m.boundary.begin() + 4); },
-       "edge 5-4 at [0.5, 1]: a boundary edge without a role (displacement, force or contact)"},
+      {[](Mesh& m) { m.triangles.clear(), m.triangle_body.clear(); }, {"no triangles"}},
+      {[](Mesh& m) { m.triangle_body.pop_back(); }, {"7 bodies for 8 triangles"}},
+      {[](Mesh& m) { m.vertices[6].y() = std::nan(""); }, {"vertex 7: ", "finite"}},
+      {[](Mesh& m) { m.vertices[6].y() = INFINITY; }, {"vertex 7: ", "finite"}},
+      {[](Mesh& m) { m.triangles[2][1] = 8; }, {"triangle 3: vertex 9 ", "(1..8)"}},
+      {[](Mesh& m) { m.triangles[2][1] = -1; }, {"triangle 3: vertex 0 ", "(1..8)"}},
+      {[](Mesh& m) { m.triangle_body[7] = 1; }, {"triangle 8: body 2 ", "(1..1)"}},
+      {[](Mesh& m) { m.vertices[6].y() = 0; }, {"triangle 1 at [0.5, 0]: zero area"}},
+      {[](Mesh& m) { m.vertices[6].y() = 1e-14; }, {"triangle 1 at [0.5, ", "zero area"}},
+      {[](Mesh& m) { std::fill(m.vertices.begin(), m.vertices.end(), Eigen::Vector2d(1, 1)); },
+       {"triangle 1 at [1, 1]: ", "in one place"}},
+      {[](Mesh& m) { std::swap(m.triangles[3][0], m.triangles[3][1]); },
+       {"triangle 4 at [0.166667, 0.5]: inverted"}},
+      {[](Mesh& m) { m.vertices.emplace_back(0.2, 0.1); }, {"vertex 9 at [0.2, 0.1]: dangling"}},
+      {[](Mesh& m) { add_triangle(m, 0.7, 0.6, 4, 8, 1); },
+       {"edge 2-5 at [1, 0.5]: shared by 3 triangles"}},
+      {[](Mesh& m) { add_triangle(m, 0.5, 2, 0, 1, 8); },
+       {"edge 1-2 at [0.5, 0]: ", "triangles overlap"}},
+      {[](Mesh& m) { m.boundary[0].vertices[1] = 8; }, {"boundary edge 1-9: ", "(1..8)"}},
+      {[](Mesh& m) { std::swap(m.boundary[2].vertices[0], m.boundary[2].vertices[1]); },
+       {"boundary edge 6-3 at [2, 0.5]: walked clockwise"}},
+      {[](Mesh& m) { add_edge(m, 1, 4, force); },
+       {"boundary edge 2-5 at [1, 0.5]: not on the boundary"}},
+      {[](Mesh& m) { add_edge(m, 1, 2, contact); }, {"boundary edge 2-3 at [1.5, 0]: given twice"}},
+      {[](Mesh& m) { m.boundary.erase(m.boundary.begin() + 4); },
+       {"edge 5-4 at [0.5, 1]: ", "without a role"}},
   };
-  for (const auto& [name, change, expected] : cases) {
+  for (const auto& [change, named] : cases) {
     Mesh mesh = two_squares();
     change(mesh);
-    EXPECT_EQ(complaint(mesh), "squares: " + expected) << name;
+    testing::expect_named(complaint(mesh), named);
   }
 }
 
@@ -161,49 +146,37 @@ TEST(MeshPieces, AreNumberedByTheirVertices) {
 TEST(MeshValidate, NamesWhereABoundaryTouchesItself) {
   for (const auto& [missing, n, vertex] : std::vector<std::tuple<std::set<int>, int, const char*>>{
            {{3, 7}, 3, "10 at [1, 2]"}, {{6, 12}, 5, "15 at [2, 2]"}, {{6, 2}, 5, "9 at [2, 1]"}})
-    EXPECT_EQ(complaint(grid_without(missing, n)),
-              std::string("grid: vertex ") + vertex +
-                  ": the boundary touches itself there: two parts of it are merged in this point "
-                  "alone (allowed: joined along edges, or with a vertex each)");
-  EXPECT_EQ(complaint(grid_without({0, 4})).find('\n'), std::string::npos);
+    testing::expect_named(complaint(grid_without(missing, n)),
+                          {"vertex " + std::string(vertex) + ": the boundary touches itself"});
 }
 
 // Places, since a model's user does not know the numbers; and what has probably gone wrong.
 TEST(MeshValidate, NamesTheProbableCause) {
-  using Points = std::vector<Eigen::Vector2d>;
-  using Triangles = std::vector<std::array<int, 3>>;
   struct Case {
-    Points vertices;
-    Triangles triangles;
+    std::vector<Eigen::Vector2d> vertices;
+    std::vector<std::array<int, 3>> triangles;
     std::vector<int> bodies;
-    std::string complaint;
+    std::vector<std::string> named;
   };
-  const std::string once = " (allowed: one, where elements are joined)",
-                    both = " (allowed: a vertex of the elements on both sides)";
-  for (const auto& [vertices, triangles, bodies, expected] : std::vector<Case>{
+  const std::string touches = "vertex 1 at [0, 0]: the boundary touches itself there: ",
+                    hangs = "vertex 5 at [1, 0] hangs on edge 1-2 at [1, 0]";
+  for (const auto& [vertices, triangles, bodies, named] : std::vector<Case>{
            {{{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}},
             {{0, 1, 2}, {0, 3, 4}},
             {0, 1},
-            "vertex 1 at [0, 0]: the boundary touches itself there: the bodies one and two are "
-            "merged in this point alone (allowed: joined along edges, or with a vertex each)"},
+            {touches + "the bodies one and two"}},
            {{{0, 0}, {2, 0}, {1, 2}, {1, -1}, {1, 0}},
             {{0, 1, 2}, {0, 3, 4}, {3, 1, 4}},
             {0, 0, 0},
-            "vertex 1 at [0, 0]: the boundary touches itself there: vertex 5 at [1, 0] hangs on "
-            "edge 1-2 at [1, 0]" +
-                both},
+            {touches + hangs}},
            {{{0, 0}, {2, 0}, {1, 2}, {1, -1}, {1, 0}, {-1, 0}, {3, 0}},
             {{0, 1, 2}, {0, 3, 4}, {3, 1, 4}, {0, 2, 5}, {5, 3, 0}, {2, 1, 6}, {3, 6, 1}},
             {0, 0, 0, 0, 0, 0, 0},
-            "boundary edge 1-2 at [1, 0]: crosses or touches boundary edge 2-5 at [1.5, 0]; the "
-            "body must not overlap itself: vertex 5 at [1, 0] hangs on edge 1-2 at [1, 0]" +
-                both},
+            {"boundary edge 1-2 at [1, 0]: crosses or touches boundary edge 2-5", hangs}},
            {{{0, 0}, {1, 0}, {1, 1}, {2, 0}, {1, 1}},
             {{0, 1, 2}, {1, 3, 4}},
             {0, 0},
-            "vertex 2 at [1, 0]: the boundary touches itself there: vertices 3 and 5 are two in "
-            "one place, [1, 1]" +
-                once},
+            {"vertex 2 at [1, 0]: the boundary", "vertices 3 and 5 are two in one place, [1, 1]"}},
        }) {
     Mesh mesh;
     mesh.name = "wrong";
@@ -212,29 +185,8 @@ TEST(MeshValidate, NamesTheProbableCause) {
     testing::hold_all_around(mesh);
     mesh.triangle_body = bodies;
     mesh.body_names = {"one", "two"};
-    EXPECT_EQ(complaint(mesh), "wrong: " + expected);
+    testing::expect_named(complaint(mesh), named);
   }
-}
-
-TEST(MeshValidate, NamesWhatIsWrongWithAHole) {
-  Mesh mesh = grid_without({4});
-  mesh.vertices[5].y() = -1;  // through the outer boundary
-  EXPECT_EQ(complaint(mesh),
-            "grid: triangle 1 at [0.666667, -0.333333]: inverted (its vertices must run "
-            "counter-clockwise)");
-  mesh.vertices[5].y() = 0;
-  EXPECT_EQ(complaint(mesh),
-            "grid: triangle 1 at [0.666667, 0]: two of its vertices are in one place");
-  mesh = grid_without({4});
-  for (BoundaryEdge& edge : mesh.boundary) {
-    const Eigen::Vector2d middle =
-        (mesh.vertices[edge.vertices[0]] + mesh.vertices[edge.vertices[1]]) / 2;
-    if ((middle - Eigen::Vector2d(1.5, 1.5)).norm() < 1)
-      std::swap(edge.vertices[0], edge.vertices[1]);
-  }
-  EXPECT_EQ(
-      complaint(mesh),
-      "grid: boundary edge 10-6 at [1, 1.5]: walked clockwise; the body must lie on its left");
 }
 
 TEST(NumberEdges, EveryEdgeOnceFromLowToHigh) {
@@ -301,11 +253,6 @@ TEST(MeshSizes, CountAsThePaperDoes) {
   EXPECT_EQ(sizes.contact_edges, 1);
   const Mesh with_holes = grid_without({6, 8}, 5);
   EXPECT_EQ(mesh_sizes(with_holes).n_phi, 3 * 36 + number_edges(with_holes).count());
-}
-
-TEST(CrossArea, IsTwiceTheSignedArea) {
-  EXPECT_DOUBLE_EQ(cross_area({0, 0}, {3, 0}, {0, 2}), 6);
-  EXPECT_DOUBLE_EQ(cross_area({0, 0}, {0, 2}, {3, 0}), -6);
 }
 
 }  // namespace

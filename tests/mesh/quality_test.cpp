@@ -9,25 +9,16 @@ namespace {
 
 const Eigen::Vector2d origin(0, 0), east(1, 0), apex(0.5, std::sqrt(3.0) / 2), north(0, 1);
 
-TEST(TriangleQuality, Equilateral) {
+TEST(TriangleQuality, OfKnownTriangles) {
   EXPECT_NEAR(smallest_angle_deg(origin, east, apex), 60, 1e-12);
   EXPECT_NEAR(mean_ratio(origin, east, apex), 1, 1e-15);
-}
-
-TEST(TriangleQuality, RightIsosceles) {
   EXPECT_NEAR(smallest_angle_deg(origin, east, north), 45, 1e-12);
   EXPECT_NEAR(mean_ratio(origin, east, north), std::sqrt(3.0) / 2, 1e-15);
-}
-
-TEST(TriangleQuality, ObtuseTriangleOf120Degrees) {
-  const Eigen::Vector2d far(-0.5, std::sqrt(3.0) / 2);
-  EXPECT_NEAR(smallest_angle_deg(origin, east, far), 30, 1e-12);
-}
-
-TEST(TriangleQuality, FlatAndClockwise) {
-  EXPECT_EQ(smallest_angle_deg(origin, east, Eigen::Vector2d(2, 0)), 0);
-  EXPECT_EQ(mean_ratio(origin, east, Eigen::Vector2d(2, 0)), 0);
-  EXPECT_LT(mean_ratio(origin, north, east), 0);
+  const Eigen::Vector2d obtuse(-0.5, std::sqrt(3.0) / 2), flat(2, 0);
+  EXPECT_NEAR(smallest_angle_deg(origin, east, obtuse), 30, 1e-12);
+  EXPECT_EQ(smallest_angle_deg(origin, east, flat), 0);
+  EXPECT_EQ(mean_ratio(origin, east, flat), 0);
+  EXPECT_LT(mean_ratio(origin, north, east), 0);  // clockwise
 }
 
 TEST(TriangleQuality, DoesNotDependOnSizePlaceOrTheFirstVertex) {

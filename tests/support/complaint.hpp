@@ -1,7 +1,10 @@
 // What is said of something wrong.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
+#include <vector>
 
 namespace airybench::testing {
 
@@ -14,6 +17,13 @@ std::string complaint_of(const Action& action) {
     return error.what();
   }
   return "no complaint";
+}
+
+// A refusal is one line that names the place and what is wrong there.
+inline void expect_named(const std::string& refusal, const std::vector<std::string>& parts) {
+  EXPECT_EQ(refusal.find('\n'), refusal.npos) << refusal;
+  for (const std::string& part : parts)
+    EXPECT_NE(refusal.find(part), refusal.npos) << part << " is not in: " << refusal;
 }
 
 }  // namespace airybench::testing
