@@ -108,37 +108,6 @@ TEST(DualSystem, QuadraticFormAndForcesOfAKnownAiryFunction) {
   }
 }
 
-TEST(DualSystem, BuildsOnlyWhatTheSceneNeeds) {
-  const Mesh mesh = small_tooth(4, 3);
-  Scene scene;
-  scene.displacement_mm.setZero();
-  scene.crown_radius_mm.reset();
-  scene.friction = 0;
-  const DualSystem bare = assemble(posed(scene, mesh));
-  EXPECT_EQ(bare.q.size(), 0);
-  EXPECT_EQ(bare.F.size(), 0);
-  EXPECT_EQ(bare.F0.size(), 0);
-  EXPECT_EQ(bare.contact.gap.size(), 0);
-  EXPECT_EQ(bare.contact.components, 1);
-  EXPECT_EQ(bare.n_c(), 2 * 3);
-  EXPECT_EQ(bare.n_f(), 4 * 8 + 2 * 3);  // tangential contact rows are prescribed
-
-  const DualSystem full = assemble(posed({}, mesh));
-  EXPECT_EQ(full.q.size(), 0);  // the displacement is a rigid motion, and in the gap
-  EXPECT_EQ(full.F.size(), 0);
-  EXPECT_EQ(full.contact.gap.size(), full.n_c());
-
-  scene.body_force_N_per_mm3 = {1, 0};
-  const DualSystem heavy = assemble(posed(scene, mesh));
-  EXPECT_EQ(heavy.q.size(), heavy.n());
-  EXPECT_EQ(heavy.F.size(), heavy.n_f());
-  EXPECT_EQ(heavy.F0.size(), heavy.n_c());
-
-  const DualSystem points = assemble(posed({}, mesh), Blocks::contact_points);
-  EXPECT_EQ(points.n(), 0);
-  EXPECT_EQ(points.contact.count, 6);
-}
-
 TEST(DualSystem, GapIsTheWorkPartnerOfTheForces) {
   // ∫ (g − ρ)·σ over an edge for linear tractions equals Σ F·ḡ.
   Scene scene;

@@ -90,66 +90,50 @@ TEST(Scene, GeometryThatTheMeshHasIsAccepted) {
 }
 
 TEST(Scene, ContradictionsAndImpossibleValuesAreNamed) {
-  const Mesh mesh = small_tooth(4, 4);
-  const auto with = [&](auto change) {
+  struct Case {
+    std::function<void(Scene&)> change;
+    std::vector<std::string> named;
+  };
+  using V2 = Eigen::Vector2d;
+  for (const auto& [change, named] : std::vector<Case>{
+           {[](Scene& s) { s.teeth = 4; }, {"teeth: 4", "1 contact face"}},
+           {[](Scene& s) { s.length_mm = 11; }, {"length_mm: 11", "10"}},
+           {[](Scene& s) { s.root_half_height_mm = 4; }, {"root_half_height_mm: 4", "5"}},
+           {[](Scene& s) { s.tip_half_height_mm = 2; }, {"tip_half_height_mm: 2", "3"}},
+           {[](Scene& s) { s.material.poisson = 0.5; }, {"poisson: 0.5"}},
+           {[](Scene& s) { s.material.young_MPa = 0; }, {"young_MPa: 0"}},
+           {[](Scene& s) { s.material.young_MPa = 2.1e-303; }, {"young_MPa: 2.1e-303"}},
+           {[](Scene& s) { s.friction = -0.1; }, {"friction: -0.1"}},
+           {[](Scene& s) { s.friction = 1e308; }, {"friction: 1e+308"}},
+           {[](Scene& s) { s.boundary["contact"].contact.friction = 1e308; },
+            {"boundary: contact: friction: 1e+308"}},
+           {[](Scene& s) { s.displacement_mm = V2(1e-200, 0); }, {"loads: forces of about "}},
+           {[](Scene& s) { s.displacement_mm = V2(0, -2e15); }, {"displacement_mm: [0, -2e+15]"}},
+           {[](Scene& s) { s.displacement_mm.x() = std::nan(""); },
+            {"displacement_mm: [nan, 0.006]"}},
+           {[](Scene& s) { s.crown_radius_mm = 1e300; }, {"crown_radius_mm: 1e+300"}},
+           {[](Scene& s) { s.crown_radius_mm = -1; }, {"crown_radius_mm: -1"}},
+           {[](Scene& s) { s.clearance_mm = 1e300; }, {"clearance_mm: 1e+300"}},
+           {[](Scene& s) { s.clearance_mm = -1; }, {"clearance_mm: -1"}},
+           {[](Scene& s) { s.body_force_N_per_mm3 = V2(1e31, 0); },
+            {"body_force_N_per_mm3: [1e+31, 0]"}},
+           {[](Scene& s) {
+              s.boundary["force"].pressure_MPa = LinearValue<double>{{1, 1e31}};
+            },
+            {"boundary: force: pressure_MPa: 1e+31"}},
+           {[](Scene& s) {
+              s.materials["rubber"] = Material{1, 0.3};
+            },
+            {"materials: rubber", "its bodies: body"}},
+           {[](Scene& s) { s.mesh.keep_contact_edges = 9; }, {"mesh: keep_contact_edges: 9", "4"}},
+           {[](Scene& s) { s.layers.normal.setZero(); }, {"layers: normal: [0, 0]"}},
+       }) {
     Scene scene;
     change(scene);
-    return complaint(scene, mesh);
-  };
-  EXPECT_EQ(
-      with([](Scene& s) { s.teeth = 4; }),
-      "default scene: teeth: 4 contradicts the mesh small tooth, which has 1 contact face(s)");
-  EXPECT_EQ(with([](Scene& s) { s.length_mm = 11; }),
-            "default scene: length_mm: 11 contradicts the mesh small tooth, which has 10");
-  EXPECT_EQ(with([](Scene& s) { s.root_half_height_mm = 4; }),
-            "default scene: root_half_height_mm: 4 contradicts the mesh small tooth, which has 5");
-  EXPECT_EQ(with([](Scene& s) { s.tip_half_height_mm = 2; }),
-            "default scene: tip_half_height_mm: 2 contradicts the mesh small tooth, which has 3");
-  EXPECT_EQ(with([](Scene& s) { s.material.poisson = 0.5; }),
-            "default scene: poisson: 0.5 (allowed: between -1 and 0.5, both excluded)");
-  EXPECT_EQ(with([](Scene& s) { s.material.young_MPa = 0; }),
-            "default scene: young_MPa: 0 (allowed: 1e-30 to 1e30)");
-  EXPECT_EQ(with([](Scene& s) { s.friction = -0.1; }),
-            "default scene: friction: -0.1 (allowed: 0 to 1e6)");
-  EXPECT_EQ(with([](Scene& s) { s.friction = 1e308; }),
-            "default scene: friction: 1e+308 (allowed: 0 to 1e6)");
-  EXPECT_EQ(with([](Scene& s) { s.boundary["contact"].contact.friction = 1e308; }),
-            "default scene: boundary: contact: friction: 1e+308 (allowed: 0 to 1e6)");
-  EXPECT_EQ(with([](Scene& s) { s.material.young_MPa = 2.1e-303; }),
-            "default scene: young_MPa: 2.1e-303 (allowed: 1e-30 to 1e30)");
-  const std::string tiny = with([](Scene& s) { s.displacement_mm = {1e-200, 0}; });
-  EXPECT_EQ(tiny.find("default scene: loads: forces of about "), 0u) << tiny;
-  EXPECT_TRUE(tiny.ends_with(" N (allowed: none, or 1e-100 to 1e100 N)")) << tiny;
-  EXPECT_EQ(with([](Scene& s) {
-              s.displacement_mm = {0, -2e15};
-            }),
-            "default scene: displacement_mm: [0, -2e+15] (allowed: -1e15 to 1e15 mm)");
-  EXPECT_EQ(with([](Scene& s) { s.crown_radius_mm = 1e300; }),
-            "default scene: crown_radius_mm: 1e+300 (allowed: > 0, up to 1e15 mm, or null for a "
-            "wall on the edges)");
-  EXPECT_EQ(with([](Scene& s) { s.clearance_mm = 1e300; }),
-            "default scene: clearance_mm: 1e+300 (allowed: 0 to 1e15 mm)");
-  EXPECT_EQ(with([](Scene& s) {
-              s.body_force_N_per_mm3 = {1e31, 0};
-            }),
-            "default scene: body_force_N_per_mm3: [1e+31, 0] (allowed: -1e30 to 1e30 N/mm³)");
-  EXPECT_EQ(with([](Scene& s) {
-              s.boundary["force"].pressure_MPa = LinearValue<double>{.values = {1, 1e31}};
-            }),
-            "default scene: boundary: force: pressure_MPa: 1e+31 (allowed: -1e30 to 1e30 MPa)");
-  EXPECT_EQ(
-      with([](Scene& s) { s.crown_radius_mm = -1; }),
-      "default scene: crown_radius_mm: -1 (allowed: > 0, up to 1e15 mm, or null for a wall on the "
-      "edges)");
-  EXPECT_EQ(with([](Scene& s) { s.clearance_mm = -1; }),
-            "default scene: clearance_mm: -1 (allowed: 0 to 1e15 mm)");
-  EXPECT_EQ(with([](Scene& s) { s.displacement_mm.x() = std::nan(""); }),
-            "default scene: displacement_mm: [nan, 0.006] (allowed: -1e15 to 1e15 mm)");
-  EXPECT_EQ(
-      with([](Scene& s) {
-        s.materials["rubber"] = {1, 0.3};
-      }),
-      "default scene: materials: rubber is no body of the mesh small tooth (its bodies: body)");
+    const std::string what = complaint(scene, small_tooth(4, 4));
+    EXPECT_TRUE(what.starts_with("default scene: ")) << what;
+    testing::expect_named(what, named);
+  }
 }
 
 TEST(Scene, ACrownNeedsStraightFaces) {
@@ -157,9 +141,7 @@ TEST(Scene, ACrownNeedsStraightFaces) {
   for (BoundaryEdge& edge : mesh.boundary)
     if (boundary_label(mesh, edge) == "force:top")
       edge = {edge.vertices, BoundaryRole::contact, boundary_group(mesh, "top")};
-  EXPECT_EQ(complaint(Scene(), mesh),
-            "default scene: crown_radius_mm: 400 on the mesh small block, where a contact face is "
-            "bent (allowed: straight faces, walls, or null, for no crown)");
+  testing::expect_named(complaint(Scene(), mesh), {"crown_radius_mm: 400", "face is bent"});
   Scene flat;
   flat.crown_radius_mm.reset();
   EXPECT_EQ(complaint(flat, mesh), "no complaint");
@@ -185,8 +167,7 @@ TEST(Scene, TheMeshIsTransformedFirst) {
   EXPECT_EQ(problem.mesh.triangles.size(), 128u);
   EXPECT_EQ(problem.mesh.name, "small tooth");
   scene.length_mm = 10;
-  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
-            "default scene: length_mm: 10 contradicts the mesh small tooth, which has 100");
+  testing::expect_named(complaint(scene, small_tooth(4, 4)), {"length_mm: 10 ", "which has 100"});
 }
 
 TEST(Scene, LayersTakeTheirMaterialsInTurnAndNamedOnesTheirOwn) {
@@ -199,17 +180,6 @@ TEST(Scene, LayersTakeTheirMaterialsInTurnAndNamedOnesTheirOwn) {
   ASSERT_EQ(problem.compliance.size(), 4u);
   for (int k = 0; k < 4; ++k)
     EXPECT_EQ(problem.compliance[k], compliance(expected[k], Plane::strain));
-}
-
-TEST(Scene, WhatTheMeshCannotBeIsSaidWithTheScene) {
-  Scene scene;
-  scene.mesh.keep_contact_edges = 9;
-  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
-            "default scene: mesh: keep_contact_edges: 9 (the mesh small tooth has 4)");
-  scene.mesh = {};
-  scene.layers.normal = {0, 0};
-  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
-            "default scene: layers: normal: [0, 0] (allowed: a direction, not [0, 0])");
 }
 
 }  // namespace
