@@ -73,10 +73,10 @@ TEST_F(CatalogueCommand, CheckNeedsTheFiles) {
 TEST_F(CatalogueCommand, RemakesIdenticalFiles) {
   if (const GmshSession session; gmsh_version() != catalogue_gmsh_version)
     GTEST_SKIP() << "another version of Gmsh makes other meshes";
-  const Outcome outcome = run("--mesh='Mesh0..Mesh1,Mesh[0-2]' --out=new");
+  const Outcome outcome = run("--mesh='Mesh0..Mesh1,Mesh[01]' --out=new");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   std::string expected;
-  for (const std::string name : {"Mesh0", "Mesh1", "Mesh2"}) {
+  for (const std::string name : {"Mesh0", "Mesh1"}) {
     const fs::path file = testing::mesh_file(name);
     expected += name + "  " + sha256_of_file(file) + "  identical\n";
     EXPECT_EQ(sha256_of_file(folder / "new" / (name + ".msh")), sha256_of_file(file));

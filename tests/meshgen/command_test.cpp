@@ -64,13 +64,6 @@ TEST_F(Command, NamesAreEscapedInMessagesAndKeptInMeshes) {
   expect_refusal("--convert=" + std::string(5000, 'n') + ".geo --out=a.msh", 1, {"nnn…"});
 }
 
-TEST_F(Command, HelpNamesTheModes) {
-  const Outcome outcome = run("--help");
-  EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* mode : {"--mesh", "--check", "--tooth", "--convert", "--modify"})
-    EXPECT_NE(outcome.out.find(mode), std::string::npos) << mode;
-}
-
 TEST_F(Command, ItsCommandIsPrintedAsItWasStartedAndItsWorkGivesSignsOfLife) {
   EXPECT_NE(run("--help", "AIRYBENCH_CALLED_AS=../run").out.find("Usage: ../run meshgen "),
             std::string::npos);
