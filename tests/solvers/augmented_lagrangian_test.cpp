@@ -235,18 +235,6 @@ TEST(AutomaticLagrangian, PenaltiesFollowGradedEdgesAndMaterials) {
   EXPECT_LE(solution.uzawa_iterations, 150);
 }
 
-TEST(AutomaticLagrangian, ThePenaltyIsOfTheRowsOwnSizeAndTheMatrixHasThePatternOfS) {
-  const DualSystem system = system_of();
-  const Eigen::VectorXd R = row_penalties(system, 10, 3);
-  ASSERT_EQ(R.size(), system.n_f() + system.n_c());
-  EXPECT_DOUBLE_EQ(R(0), 10 / system.C_F.row(0).squaredNorm());
-  EXPECT_DOUBLE_EQ(R(system.n_f()), 3 / system.C_C.row(0).squaredNorm());
-  EXPECT_EQ(penalised_matrix(system, R).nonZeros(), system.S.nonZeros());
-  const AugmentedFactor augmented = factor_augmented(system, 20);
-  EXPECT_EQ(augmented.factor.profile.profile, analyse_skyline(system.S).profile);
-  EXPECT_GT(augmented.factor.diagonal.minCoeff(), 0);
-}
-
 TEST(AutomaticLagrangian, ItsOwnEstimateIsNotBelowItsError) {
   const DualSystem system = system_of();
   const Solution reference = solved_by("HYBRID", system);
@@ -293,25 +281,6 @@ TEST(AndersonAcceleration, GoesBackToTheBestWhenTheResidualGrows) {
   EXPECT_EQ(acceleration.next(one(6), one(2.4))(0), 6);  // plain, nothing is remembered
   acceleration.forget();
   EXPECT_EQ(acceleration.next(one(9), one(100))(0), 9);
-}
-
-TEST(AndersonAcceleration, AfterForgettingItIsAsNew) {
-  constexpr int n = 6;
-  std::mt19937 generator(2);
-  const Eigen::MatrixXd A = 0.4 * testing::random_matrix(n, n, generator);
-  const Eigen::VectorXd b = testing::random_matrix(n, 1, generator);
-  AndersonAcceleration used(n, 4), fresh(n, 4);
-  const auto steps = [&](AndersonAcceleration& acceleration, int count) {
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
-    for (int k = 0; k < count; ++k) {
-      const Eigen::VectorXd g = A * x + b;
-      x = acceleration.next(g, g - x);
-    }
-    return x;
-  };
-  steps(used, 3);
-  used.forget();
-  EXPECT_EQ(steps(used, 4), steps(fresh, 4));
 }
 
 }  // namespace

@@ -70,22 +70,20 @@ TEST(ColumnStore, TheFileHasNoNameAndIsGoneAfterwards) {
 
 TEST(ColumnStore, AFolderThatCannotTakeItIsNamed) {
   const testing::TemporaryFolder folder;
-  const auto refusal = [](const fs::path& temporary) {
+  const auto expect_refused = [](const fs::path& temporary, const std::string& why) {
     const testing::EnvironmentVariable variable("TMPDIR", temporary);
-    return testing::complaint_of<Breakdown>([] { const MappedFile file(std::size_t{1} << 24); });
+    testing::expect_named(
+        testing::complaint_of<Breakdown>([] { const MappedFile file(std::size_t{1} << 24); }),
+        {"16777216 bytes", temporary.string() + ": " + why, "TMPDIR"});
   };
-  const fs::path nowhere = folder / "nowhere", file = testing::write_text(folder / "file", "x");
-  const std::string begin = "no room for 16777216 bytes in a temporary file in ",
-                    end = " (TMPDIR names another folder)";
-  EXPECT_EQ(refusal(nowhere), begin + nowhere.string() + ": No such file or directory" + end);
-  EXPECT_EQ(refusal(file), begin + file.string() + ": Not a directory" + end);
+  const fs::path file = testing::write_text(folder / "file", "x");
+  expect_refused(folder / "nowhere", "No such file or directory");
+  expect_refused(file, "Not a directory");
   fs::remove(file);
-  std::string full;
   {
     const FileSizeLimit limit(1 << 20);
-    full = refusal(folder.path());
+    expect_refused(folder.path(), "File too large");
   }
-  EXPECT_EQ(full, begin + folder.path().string() + ": File too large" + end);
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 

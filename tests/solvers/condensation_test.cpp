@@ -75,7 +75,7 @@ TEST(Condensation, ConstraintsThatDependOnEachOtherAreABreakdown) {
   system.C_F = doubled;
   const Solution solution = run(select_methods("3STEPD").front(), system, {});
   EXPECT_EQ(solution.status, Status::breakdown);
-  EXPECT_EQ(solution.message, "three-step condensation: K_FF is not positive definite to rounding");
+  EXPECT_NE(solution.message.find("K_FF"), std::string::npos) << solution.message;
 }
 
 TEST(Condensation, NotFiniteInputIsABreakdown) {

@@ -113,33 +113,6 @@ TEST(GaussSeidel, NothingTouchesAndZeroForcesConverge) {
   EXPECT_TRUE(result.F_C.isZero(0));
 }
 
-TEST(GaussSeidel, TooFewSweepsOrNaNIsNotConverged) {
-  contact::Problem problem = random_problem(2, 0.3, 13);
-  const ContactResult few = solve_contact_by_gauss_seidel(problem, {.most_iterations = 2});
-  EXPECT_FALSE(few.converged);
-  EXPECT_EQ(few.iterations, 2);
-  EXPECT_FALSE(solve_contact_by_gauss_seidel(problem, {.most_iterations = 0}).converged);
-  problem.G(3) = std::nan("");
-  EXPECT_FALSE(solve_contact_by_gauss_seidel(problem).converged);
-}
-
-TEST(GaussSeidel, KeepsAHistoryOnRequest) {
-  const contact::Problem problem = random_problem(2, 0.3, 14);
-  const ContactResult result = solve_contact_by_gauss_seidel(problem, {.history = true});
-  EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.iterations));
-  EXPECT_LE(result.history.back(), ContactOptions().tolerance);
-  EXPECT_TRUE(solve_contact_by_gauss_seidel(problem).history.empty());
-}
-
-TEST(GaussSeidel, GoesOnFromAGivenStart) {
-  const contact::Problem problem = random_problem(2, 0.3, 15);
-  const ContactResult first = solve_contact_by_gauss_seidel(problem);
-  const ContactResult again = solve_contact_by_gauss_seidel(problem, {.start = first.F_C});
-  EXPECT_TRUE(again.converged);
-  EXPECT_LE(again.iterations, 2);
-  EXPECT_LT(testing::distance(again.F_C, first.F_C), 1e-12 * first.F_C.norm());
-}
-
 // A compliance like that of a thin layer between long waves: sweeps carry little from end to end.
 contact::Problem stiff_problem(int components) {
   const int count = 40, size = count * components;

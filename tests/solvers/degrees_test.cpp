@@ -10,6 +10,7 @@
 #include "solvers/contact/linear_tractions.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/sanitized.hpp"
@@ -202,25 +203,18 @@ TEST(Degrees, HaveLoadStepsWithFriction) {
 }
 
 TEST(Degrees, AreRefusedWhereTheyAreNot) {
-  const auto complaint = [](const auto& ask) -> std::string {
-    try {
-      ask();
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
-  };
-  const auto of_name = [&](const std::string& name) {
-    return complaint([&] { select_methods(name); });
-  };
-  const std::string allowed =
-      " (allowed: a whole number from 1 to " + std::to_string(highest_stress_degree) + ")";
-  for (const std::string& k : {std::to_string(highest_stress_degree + 1), std::string("1.5")})
-    EXPECT_EQ(of_name("HYBRID:k=" + k), "method 'HYBRID:k=" + k + "': k='" + k + "'" + allowed);
-  EXPECT_EQ(of_name("HYBRID:CG,k=2"),
-            "method 'HYBRID:CG,k=2': 'CG' (valid: CHOLMOD, MUMPS, k=<degree>)");
-  EXPECT_EQ(of_name("HYBRID:k=2,refine=yes"),
-            "method 'HYBRID:k=2,refine=yes': unknown option 'refine' (valid: k)");
+  const std::string above = std::to_string(highest_stress_degree + 1),
+                    allowed = "1 to " + std::to_string(highest_stress_degree);
+  for (const auto& [options, wrong, valid] : std::vector<std::array<std::string, 3>>{
+           {"k=" + above, "k='" + above + "'", allowed},
+           {"k=1.5", "k='1.5'", allowed},
+           {"CG,k=2", "'CG'", "CHOLMOD, MUMPS, k=<degree>"},
+           {"k=2,refine=yes", "unknown option 'refine'", "(valid: k)"}}) {
+    const std::string name = "HYBRID:" + options;
+    testing::expect_named(
+        testing::complaint_of<std::invalid_argument>([&] { select_methods(name); }),
+        {"method '" + name + "': " + wrong, valid});
+  }
 }
 
 }  // namespace

@@ -124,16 +124,6 @@ TEST_P(Factor, NothingToSolveAndOutOfTime) {
   EXPECT_NO_THROW(factorise(grid_matrix(9))(x, Deadline::after(1e300)));
 }
 
-TEST_P(Factor, SeveralLiveAtOnce) {
-  const Eigen::MatrixXd A = grid_matrix(5), B = grid_matrix(8);
-  const SolveWith first = factorise(A), second = factorise(B);
-  Eigen::MatrixXd x = Eigen::MatrixXd::Ones(A.rows(), 1), y = Eigen::MatrixXd::Ones(B.rows(), 1);
-  first(x, {});
-  second(y, {});
-  EXPECT_LT(testing::residual(A, x, Eigen::MatrixXd::Ones(A.rows(), 1)), 1e-12);
-  EXPECT_LT(testing::residual(B, y, Eigen::MatrixXd::Ones(B.rows(), 1)), 1e-12);
-}
-
 // A random symmetric positive definite matrix whose row i begins at column first(i).
 Eigen::MatrixXd random_skyline(int n, const std::function<int(int i)>& first) {
   static std::mt19937 generator(4);
@@ -187,20 +177,6 @@ TEST(Skyline, CountsTheClassicalProfile) {
   EXPECT_GE(profile.stored, profile.profile);
 }
 
-TEST(Skyline, PaddingOfAFiniteElementMatrixStaysSmall) {
-  const DualSystem system = testing::system_of({}, testing::catalogue_mesh("Mesh5"));
-  const SkylineProfile profile = analyse_skyline(system.S);
-  EXPECT_LT(static_cast<double>(profile.stored), 1.4 * static_cast<double>(profile.profile));
-}
-
-TEST(Skyline, DiagonalIsThatOfLDLT) {
-  const Eigen::MatrixXd A = random_dense(9);
-  const SkylineFactor factor = skyline_factor(A, 48);
-  // One panel of equal rows keeps its order, so D is that of A itself: D_i = L_ii² of Cholesky.
-  const Eigen::MatrixXd L = testing::cholesky_factor(A);
-  for (int i = 0; i < 9; ++i) EXPECT_NEAR(factor.diagonal(i), L(i, i) * L(i, i), 1e-13);
-}
-
 TEST(Skyline, TakesRegularLeadingBlocksThatAreIndefiniteAndLeadingZerosOfTheRightHandSide) {
   Eigen::MatrixXd A(3, 3), b = Eigen::MatrixXd::Zero(300, 3);
   A << 1, 2, 0, 2, 1, 3, 0, 3, 5;  // leading minors 1, −3, −24
@@ -218,10 +194,6 @@ TEST(Skyline, RefusesImpossiblePanelSizesAndNamesAPivot) {
             "skyline LDLT: pivot 3 is nan");
   S.coeffRef(2, 2) = 0;
   EXPECT_THROW(factor_ldlt(analyse_skyline(S, 2), S), Breakdown);
-}
-
-TEST(Skyline, ADeadlineEndsTheFactorisation) {
-  EXPECT_THROW(skyline_factor(random_dense(60), 16, Deadline::after(-1)), TimeoutReached);
 }
 
 TEST(Mumps, CountsNegativePivotsOfSeveralAtOnce) {

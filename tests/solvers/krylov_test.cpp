@@ -256,17 +256,6 @@ TEST(Symmlq, ASystemWithoutASolutionIsNotASuccess) {
   }
 }
 
-TEST(Symmlq, AnEigenvectorTakesOneIteration) {
-  std::mt19937 generator(6);
-  const Spectral A(random_spectrum(12, 5, generator), generator);
-  Eigen::MatrixXd X = 1e8 * A.Q;
-  const KrylovSummary summary = symmlq(A.matrix(), no_preconditioner(), X, with(1e-10, most_lanes));
-  EXPECT_TRUE(summary.converged);
-  EXPECT_EQ(summary.iterations, 12);
-  EXPECT_EQ(summary.most_iterations, 1);
-  EXPECT_LT(testing::distance(X, 1e8 * A.Q * A.eigenvalues.cwiseInverse().asDiagonal()), 1e-6);
-}
-
 TEST(ConjugateGradients, ReadsTheLowerTriangleOfASparseMatrixOnly) {
   // A tridiagonal matrix whose other entries are not stored.
   const int n = 50;

@@ -264,12 +264,7 @@ TEST(LoadStepsOf, ASlipOfAHigherDegreeIsRefused) {
   const auto problem = path({{0.02, 0.006}});
   Loads loads = problem->loads;
   loads.slid_mm = Eigen::MatrixXd::Zero(5, std::ssize(problem->mesh.boundary));
-  try {
-    contact_points(with_loads(*problem, loads), 1);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "slip of degree 4 for displacements of degree 2");
-  }
+  EXPECT_THROW(contact_points(with_loads(*problem, loads), 1), std::invalid_argument);
 }
 
 TEST(LoadStepsOf, AMethodThatFailsEndsThePath) {

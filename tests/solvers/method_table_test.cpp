@@ -68,11 +68,9 @@ TEST(Methods, SelectionByNamesAndGlobs) {
   std::string valid;
   for (const Method& method : methods())
     if (method.preconditioner.empty() || !is_general_name(method.name)) valid += method.name + ", ";
-  EXPECT_EQ(testing::complaint_of<std::invalid_argument>([] { select_methods("3STEPD,4STEP"); }),
-            "no method matches '4STEP', perhaps 3STEPD (valid: " + valid +
-                "3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, ALM:r=<r>,rho=<rho>, "
-                "HYBRID:k=<degree>; globs like '3STEP*')");
-  EXPECT_NE(valid.find("HYBRID:CG, "), valid.npos);
+  testing::expect_named(
+      testing::complaint_of<std::invalid_argument>([] { select_methods("3STEPD,4STEP"); }),
+      {"'4STEP', perhaps 3STEPD (valid: " + valid, "SYMMLQ:<preconditioner>", "HYBRID:k=<degree>"});
   EXPECT_THROW(select_methods(""), std::invalid_argument);
 }
 
