@@ -342,8 +342,8 @@ TEST(FreeBodies, OnlyASolvedContactLawTellsThatNothingHolds) {
   for (const auto& [along, left] : {std::pair(1e-7, "1.2e-06"), {1e-2, "0.12"}}) {
     const Solution pushed = solved(along, {});
     EXPECT_EQ(pushed.status, Status::breakdown);
-    EXPECT_EQ(pushed.message, "nothing holds the body block: it slides along (1, 0), with " +
-                                  std::string(left) + " N of its loads unbalanced");
+    testing::expect_named(pushed.message, {"the body block: it slides along (1, 0)",
+                                           "with " + std::string(left) + " N of"});
   }
 }
 
@@ -360,16 +360,15 @@ TEST(FreeBodies, WhatNothingHoldsIsNamedWithItsDirection) {
   for (const char* name : {"HYBRID", "3STEPD", "P2"}) {
     Scene lifted = loaded_pile(0.3);
     lifted.boundary["force:top"].pressure_MPa->values.fill(-pressure);
-    EXPECT_EQ(why_not(lifted, pile(), name),
-              "nothing holds the body high: it leaves contact along (0, 1), with 328 N of its "
-              "loads unbalanced");
+    testing::expect_named(why_not(lifted, pile(), name),
+                          {"the body high: it leaves contact along (0, 1)", "with 328 N of"});
     for (const auto& [friction, left] : {std::pair(0., "210"), {0.3, "98.3"}}) {
       Scene pushed = loaded_pile(friction);
       pushed.boundary["force:top"].pressure_MPa.reset();
       pushed.boundary["force:top"].traction_MPa = everywhere({-30, -pressure});
-      EXPECT_EQ(why_not(pushed, pile(), name),
-                "nothing holds the body high: it slides along (-1, 0), with " + std::string(left) +
-                    " N of its loads unbalanced");
+      testing::expect_named(
+          why_not(pushed, pile(), name),
+          {"the body high: it slides along (-1, 0)", "with " + std::string(left) + " N of"});
     }
   }
 }
@@ -408,10 +407,8 @@ TEST(FreeBodies, OneThatIsInContactAllAroundIsRefused) {
   Scene scene;
   scene.wall = PolylineWall{{{0, 0}, {12, 0}, {12, 5}, {0, 5}}};
   scene.boundary["displacement"].support = BoundaryValues::Support::normal;
-  EXPECT_EQ(
-      testing::complaint_of<SceneError>([&] { pose(scene, block); }),
-      "default scene: mesh block: the body block has neither two force edges nor displacement "
-      "edges (allowed: either)");
+  testing::expect_named(testing::complaint_of<SceneError>([&] { pose(scene, block); }),
+                        {"mesh block: the body block has neither two force edges nor"});
 }
 
 }  // namespace

@@ -41,9 +41,9 @@ TEST(HeldBodies, ABlockSlidesDownASlope) {
        {std::pair(0.2, "2.47"), {0.3, "0.962"}, {0.35, "0.21"}, {0., "5.47"}}) {
     scene.friction = friction;
     for (const int cells : {3, 7})
-      expect_breakdown(scene, blocks_on_slope(1, cells),
-                       "nothing holds the body a: it slides along (0.94, -0.342), with " +
-                           std::string(left) + " N of its loads unbalanced");
+      expect_breakdown(
+          scene, blocks_on_slope(1, cells),
+          {"the body a: it slides along (0.94, -0.342)", "with " + std::string(left) + " N of"});
   }
   scene.friction = 0.4;
   expect_ok(scene, blocks_on_slope(1, 4), {"HYBRID", "HYBRID:k=3", "P2"});
@@ -56,14 +56,12 @@ TEST(HeldBodies, BodiesThatSlideTogetherAreNamedTogether) {
   scene.boundary["contact:below_a"].contact.friction = 0.2;
   scene.contacts[0].friction = 1;
   expect_breakdown(scene, blocks_on_slope(2, 4),
-                   "nothing holds the body a and the body b: they slide along (0.94, -0.342), with "
-                   "4.93 N of their loads unbalanced",
+                   {"the body a and the body b: they slide along (0.94, -0.342)", "with 4.93 N of"},
                    {"HYBRID", "P2"});
   scene.boundary["contact:below_a"].contact.friction = 0.5;
   scene.contacts[0].friction = 0.3;
   expect_breakdown(scene, blocks_on_slope(2, 4),
-                   "nothing holds the body b: it slides along (0.94, -0.342), with 0.962 N of its "
-                   "loads unbalanced",
+                   {"the body b: it slides along (0.94, -0.342)", "with 0.962 N of"},
                    {"HYBRID", "HYBRID:k=2", "P3"});
 }
 
@@ -84,14 +82,11 @@ TEST(HeldBodies, AWedgeLeavesItsGroove) {
     return scene;
   };
   expect_breakdown(load(10, -6), mesh,
-                   "nothing holds the body wedge: it slides along (0.707, 0.707), with 0.566 N of "
-                   "its loads unbalanced");
+                   {"the body wedge: it slides along (0.707, 0.707)", "with 0.566 N of"});
   expect_breakdown(load(-10, -6), mesh,
-                   "nothing holds the body wedge: it slides along (-0.707, 0.707), with 0.566 N of "
-                   "its loads unbalanced");
+                   {"the body wedge: it slides along (-0.707, 0.707)", "with 0.566 N of"});
   expect_breakdown(load(0, 3), mesh,
-                   "nothing holds the body wedge: it leaves contact along (0, 1), with 3 N of its "
-                   "loads unbalanced");
+                   {"the body wedge: it leaves contact along (0, 1)", "with 3 N of"});
   expect_ok(load(6, -6), mesh, {"HYBRID", "HYBRID:k=2", "P2"});
 }
 
@@ -118,35 +113,29 @@ Scene pushed(double along_MPa) {
 TEST(HeldBodies, ATowerTipsAboutTheEndOfItsFace) {
   for (const int cells : {4, 7}) {
     expect_breakdown(pushed(6), tower(cells),
-                     "nothing holds the body block: it tips about (2, 0), with 16 N mm of its "
-                     "loads unbalanced");
+                     {"the body block: it tips about (2, 0)", "with 16 N mm of"});
     expect_breakdown(pushed(-5.05), tower(cells),
-                     "nothing holds the body block: it tips about (-2, 0), with 0.8 N mm of its "
-                     "loads unbalanced");
+                     {"the body block: it tips about (-2, 0)", "with 0.8 N mm of"});
   }
   expect_ok(pushed(4), tower(4), {"HYBRID", "HYBRID:k=2", "HYBRID:k=3", "3STEPD", "P2", "P3"});
 }
 
 // Pressures of degree k reach to 1/(k + 2) of an edge from its end.
 TEST(HeldBodies, AMeshMayBeTooCoarseToTellThatATowerStands) {
-  const auto too_coarse = [](const char* needed) {
-    return std::string(
-               "the mesh is too coarse to decide. At (2, 0) the resultant is 0.08 mm from "
-               "the end of the face, and needs edges of at most ") +
-           needed + " mm there, not 1 mm; P2, P3 and P4 need none";
+  const auto expect_too_coarse = [](const Mesh& mesh, const char* name, const std::string& needed) {
+    expect_breakdown(pushed(4.8), mesh,
+                     {"too coarse to decide", "At (2, 0) ", "0.08 mm from the end of the face",
+                      "at most " + needed + " mm there, not 1 mm"},
+                     {name});
   };
   for (const auto& [name, needed] : {std::pair("HYBRID", "0.24"),
                                      {"3STEPD", "0.24"},
                                      {"HYBRID:k=2", "0.32"},
-                                     {"HYBRID:k=3", "0.4"}}) {
-    const Solution solution = solved_scene(pushed(4.8), tower(4), name);
-    EXPECT_EQ(solution.status, Status::breakdown) << name;
-    EXPECT_NE(solution.message.find(too_coarse(needed)), std::string::npos) << solution.message;
-  }
+                                     {"HYBRID:k=3", "0.4"}})
+    expect_too_coarse(tower(4), name, needed);
   Mesh in_another_order = tower(4);  // of two pairs of edges the block's is first now
   std::ranges::rotate(in_another_order.boundary, in_another_order.boundary.end() - 12);
-  EXPECT_NE(solved_scene(pushed(4.8), in_another_order, "HYBRID").message.find(too_coarse("0.24")),
-            std::string::npos);
+  expect_too_coarse(in_another_order, "HYBRID", "0.24");
   expect_ok(pushed(4.8), tower(4), {"P2", "P3"});
   expect_ok(pushed(4.8), tower(20), {"HYBRID"});
 }
@@ -161,9 +150,7 @@ TEST(HeldBodies, ASlotWithClearanceHoldsNothing) {
   scene.friction = 0.8;
   scene.boundary["contact:right"].contact.wall = FlatWall{{2.01, 0}, {-1, 0}};
   scene.boundary["contact:left"].contact.wall = FlatWall{{-2.02, 0}, {1, 0}};
-  expect_breakdown(scene, mesh,
-                   "nothing holds the body key: it slides along (0, -1), with 16 N of its "
-                   "loads unbalanced",
+  expect_breakdown(scene, mesh, {"the body key: it slides along (0, -1)", "with 16 N of"},
                    {"HYBRID", "P2"});
 }
 
@@ -224,10 +211,9 @@ TEST(HeldBodies, TheStepThatIsNotHeldIsNamed) {
           ++steps;
         });
     EXPECT_EQ(steps, 3) << name;
-    EXPECT_EQ(last.message,  // 16 − 0.3·32 N
-              "nothing holds the body block: it slides along (1, 0), with 6.4 N of its loads "
-              "unbalanced")
-        << name;
+    // 16 − 0.3·32 N
+    testing::expect_named(last.message,
+                          {"the body block: it slides along (1, 0)", "with 6.4 N of"});
   }
 }
 

@@ -114,9 +114,8 @@ TEST(PointSupports, APointHoldsWhatContactLeavesFree) {
     scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{50, 50}};
     scene.point_supports = {point({0, 4}, 0.125, {})};
     if (!held) {
-      testing::expect_breakdown(scene, mesh,
-                                "the point support at (0, 4) holds what contact holds: it would "
-                                "carry a force, and the stress of a force in a point is infinite");
+      testing::expect_breakdown(
+          scene, mesh, {"the point support at (0, 4) holds what contact holds: it would carry"});
       continue;
     }
     for (const char* name : {"HYBRID", "HYBRID:k=2", "P2", "P3"}) {
@@ -134,66 +133,55 @@ TEST(PointSupports, APointHoldsWhatContactLeavesFree) {
 
 TEST(PointSupports, LoadsThatTheyWouldCarryAreRefusedWithTheForces) {
   const std::vector<PointSupport> points = {point({0, 0}, 0, 0), point({8, 0}, {}, 0)};
-  const std::string begin = "loads do not balance: point supports would carry ",
-                    end = ", and the stress of a force in a point is infinite";
+  const auto named = [](const std::string& forces) {
+    return std::vector<std::string>{"loads do not balance", " would carry " + forces + ","};
+  };
   Scene scene = pulled_bar(points);
   scene.boundary["force:left"].pressure_MPa.reset();
   testing::expect_breakdown(
-      scene, bar(),
-      begin + "-400 N in x at (0, 0), -100 N in y at (0, 0), 100 N in y at (8, 0)" + end,
+      scene, bar(), named("-400 N in x at (0, 0), -100 N in y at (0, 0), 100 N in y at (8, 0)"),
       all_kinds);
   scene = pulled_bar(points);
   scene.body_force_N_per_mm3 = {0, -0.5};
-  testing::expect_breakdown(scene, bar(), begin + "8 N in y at (0, 0), 8 N in y at (8, 0)" + end);
+  testing::expect_breakdown(scene, bar(), named("8 N in y at (0, 0), 8 N in y at (8, 0)"));
   scene = pulled_bar(points);
   scene.boundary["force:right"].pressure_MPa->values.fill(-pulled_MPa * (1 + 1e-6));
   testing::expect_breakdown(
       scene, bar(),
-      begin + "-0.0004 N in x at (0, 0), -0.0001 N in y at (0, 0), 0.0001 N in y at (8, 0)" + end);
+      named("-0.0004 N in x at (0, 0), -0.0001 N in y at (0, 0), 0.0001 N in y at (8, 0)"));
   // In the last of a deck's eight digits they balance.
   scene.boundary["force:right"].pressure_MPa->values.fill(-pulled_MPa * (1 + 1e-9));
   testing::expect_ok(scene, bar(), all_kinds);
 }
 
 TEST(PointSupports, WhatIsHeldTwiceOrNotAtAllIsRefused) {
-  const std::string twice =
-      ", which displacement edges or other points hold: it would carry a force, "
-      "and the stress of a force in a point is infinite (allowed: points that "
-      "take out a rigid motion; edges carry forces)";
   const testing::Sides free = {"force", "force:right", "force", "force:left"},
                        on_rollers = {"displacement", "force:right", "force", "force:left"},
                        clamped = {"force", "force:right", "force", "displacement"};
   for (const auto& [sides, points, why] :
        std::vector<std::tuple<testing::Sides, std::vector<PointSupport>, std::string>>{
-           {free,
-            {point({0, 0}, 0, 0)},
-            "the body bar is free to move or turn (allowed: as many components as hold it, three "
-            "in two points)"},
-           {free, {point({0, 0}, 0, 0), point({8, 0}, 0, {})}, "[8, 0] holds x" + twice},
-           {free, {point({0, 0}, 0, 0), point({8, 0}, 0, 0)}, "[8, 0] holds x" + twice},
+           {free, {point({0, 0}, 0, 0)}, "the body bar is free to move or turn"},
+           {free, {point({0, 0}, 0, 0), point({8, 0}, 0, {})}, "[8, 0] holds x, which"},
+           {free, {point({0, 0}, 0, 0), point({8, 0}, 0, 0)}, "[8, 0] holds x, which"},
            {free,
             {point({0, 0}, 0, 0), point({8, 0}, {}, 0), point({8, 4}, {}, 0)},
-            "[8, 4] holds y" + twice},
-           {on_rollers, {point({8, 4}, 0, 0)}, "[8, 4] holds y" + twice},
-           {clamped, {point({8, 0}, {}, 0)}, "[8, 0] holds y" + twice},
-           {free,
-            {point({0, 0}, {}, {})},
-            "[0, 0] holds nothing (allowed: displacement_mm, a number for x, for y, or for both)"},
+            "[8, 4] holds y, which"},
+           {on_rollers, {point({8, 4}, 0, 0)}, "[8, 4] holds y, which"},
+           {clamped, {point({8, 0}, {}, 0)}, "[8, 0] holds y, which"},
+           {free, {point({0, 0}, {}, {})}, "[0, 0] holds nothing"},
            {free, {point({0, -1}, 0, 0)}, "[0, -1] lies off the mesh bar"},
-           {free,
-            {{{0, 0}, {0, 0}, "rod"}},
-            "[0, 0] of the body rod, which the mesh bar has not (its bodies: bar)"},
+           {free, {{{0, 0}, {0, 0}, "rod"}}, "[0, 0] of the body rod"},
        }) {
     Scene scene = pulled_bar(points);
     scene.boundary.clear();
     if (sides == on_rollers)
       scene.boundary["displacement"].support = BoundaryValues::Support::normal;
-    EXPECT_EQ(testing::complaint_of<SceneError>([&, own = sides] { pose(scene, bar(own)); }),
-              "default scene: point_supports: " + why);
+    testing::expect_named(
+        testing::complaint_of<SceneError>([&, own = sides] { pose(scene, bar(own)); }),
+        {"point_supports: " + why});
   }
-  EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(pulled_bar({}), bar()); }),
-            "default scene: mesh bar: no displacement and no contact edge (allowed: one at least, "
-            "or point_supports where loads balance)");
+  testing::expect_named(testing::complaint_of<SceneError>([&] { pose(pulled_bar({}), bar()); }),
+                        {"mesh bar: no displacement and no contact edge", "point_supports"});
 }
 
 // Where two bodies touch, the point belongs to the one that it names.
@@ -207,14 +195,12 @@ TEST(PointSupports, APointOfTwoBodiesNamesOne) {
   scene.contacts = {{.between = {{{"contact:low"}, {"contact:high"}}}}};
   scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{50, 50}};
   scene.point_supports = {point({4, 0}, 0, {})};
-  EXPECT_EQ(testing::complaint_of<SceneError>([&] { pose(scene, mesh); }),
-            "default scene: point_supports: [4, 0] lies in the bodies high, low (allowed: body, "
-            "the one that is held)");
+  const auto refusal = [&] {
+    return testing::complaint_of<SceneError>([&] { pose(scene, mesh); });
+  };
+  testing::expect_named(refusal(), {"point_supports: [4, 0] lies in the bodies high, low"});
   scene.point_supports.front().body = "low";
-  EXPECT_NE(testing::complaint_of<SceneError>([&] {
-              pose(scene, mesh);
-            }).find("[4, 0] holds x, which displacement edges"),
-            std::string::npos);
+  testing::expect_named(refusal(), {"[4, 0] holds x, which displacement edges"});
   scene.point_supports.front().body = "high";
   for (const char* name : {"HYBRID", "P2"}) {
     const testing::SolvedScene solved(scene, mesh, name);
