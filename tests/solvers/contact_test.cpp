@@ -113,6 +113,14 @@ TEST(GaussSeidel, NothingTouchesAndZeroForcesConverge) {
   EXPECT_TRUE(result.F_C.isZero(0));
 }
 
+TEST(GaussSeidel, KeepsAHistoryOnRequest) {
+  const contact::Problem problem = random_problem(2, 0.3, 14);
+  const ContactResult result = solve_contact_by_gauss_seidel(problem, {.history = true});
+  EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.iterations));
+  EXPECT_LE(result.history.back(), ContactOptions().tolerance);
+  EXPECT_TRUE(solve_contact_by_gauss_seidel(problem).history.empty());
+}
+
 // A compliance like that of a thin layer between long waves: sweeps carry little from end to end.
 contact::Problem stiff_problem(int components) {
   const int count = 40, size = count * components;

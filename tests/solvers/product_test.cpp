@@ -143,8 +143,7 @@ class KernelsOnARack : public ::testing::TestWithParam<PreconditionerOnMesh> {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Mesh4, KernelsOnARack,
-                         Combine(Values("Mesh4"),
-                                 Values("DTIC4", "FLIC3", "SSOR1.0", "SKY", "NONE")),
+                         Combine(Values("Mesh4"), Values("DTIC4", "FLIC3", "SKY")),
                          KernelsOnARack::name_of);
 INSTANTIATE_TEST_SUITE_P(SmallRack, KernelsOnARack,
                          Combine(Values("SmallRack"), ValuesIn(preconditioner_names())),
