@@ -92,7 +92,3 @@ class ContactProfilesTest(unittest.TestCase):
                 status, _, complaint = run(contact_profiles, folder)
                 self.assertEqual((status, complaint.count("\n")), (2, 1))
                 self.assertIn(words, complaint)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,6 +1,5 @@
 """plots/curves.py on a square with a round hole.  /usr/bin/python3 -m unittest FILE"""
 import json
-import unittest
 from unittest import mock
 
 import numpy as np
@@ -36,14 +35,6 @@ class Curves(FolderTest):
         inward = numbers["14"]  # into the hole
         self.assertLess(np.dot(inward.xy, inward.xyann), 0)
 
-    def test_each_group_has_its_colour(self) -> None:
-        walk = CORNERS[:2]
-        shapes = [{"number": k, "names": [], "role": "force", "walks_mm": [walk]} for k in range(6)] + [
-            {"number": 10 + k, "names": ["tip"], "role": "force:tip", "walks_mm": [walk]} for k in range(2)]
-        colours = [text.get_color() for text in curves.draw(MODEL | {"curves": shapes}).axes[0].texts]
-        self.assertEqual(len(set(colours)), 7)
-        self.assertEqual(colours[6], colours[7])
-
     def test_a_picture_is_written_whole_or_not_at_all(self) -> None:
         with mock.patch.object(drawing, "VECTOR_DPI", 20):
             self.assertEqual(self.draw(json.dumps(MODEL)), (0, "", ""))
@@ -53,7 +44,3 @@ class Curves(FolderTest):
         self.assertEqual((status, out, err.count("\n")), (2, "", 1))
         self.assertIn("curves.json: ", err)
         self.assertFalse((self.results / "model.png").exists())
-
-
-if __name__ == "__main__":
-    unittest.main()

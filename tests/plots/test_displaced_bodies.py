@@ -75,11 +75,6 @@ class DisplacedTest(unittest.TestCase):
         self.assertAlmostEqual(wall[0, 0], 11 + 49 * distance.min())
         np.testing.assert_allclose(field_drawing.walls_of(s, 1)[0][:, 0], 11)
 
-    def test_the_outline_meets_the_wall_where_a_body_touches_it(self) -> None:
-        touching = replace(self.s, gap=0 * self.s.gap)
-        wall, = field_drawing.walls_of(touching, 50)
-        np.testing.assert_allclose(wall[:, 0], 11 + 50 * 0.004)
-
     def test_a_face_that_presses_on_a_body_has_no_wall(self) -> None:
         paired = replace(self.s, paired=np.ones(len(self.s.edges), bool))
         self.assertEqual(field_drawing.walls_of(paired, 50), [])
@@ -119,17 +114,3 @@ class DisplacedTest(unittest.TestCase):
             marks = np.vstack([mark.get_xydata() for mark in axes.lines if mark.get_marker() == "o"])
             middles = seen.placed(seen.boundary[seen.role == "rollers"].mean(1))
             np.testing.assert_allclose(np.sort(marks, axis=0), np.sort(middles, axis=0))
-
-    def test_the_legend_names_only_what_is_drawn(self) -> None:
-        s = bar(10, 8, 1)
-        free = replace(s, role=np.where(s.role == "contact", "rollers", s.role), edges=s.edges[:0],
-                       traction=s.traction[:0], state=s.state[:0])
-        words = drawn.words_of(gallery.compose([[free]]))
-        self.assertIn("on rollers", words)
-        for word in ("contact", "stick", "open", "displaced", "wall", "friction"):
-            self.assertNotIn(word, words)
-        words = drawn.words_of(gallery.compose([[s]]))
-        self.assertNotIn("rollers", words)
-        self.assertIn("slip", words)
-        sticking = replace(s, state=np.full_like(s.state, "stick"))
-        self.assertNotIn("slip", drawn.words_of(gallery.compose([[sticking]])))

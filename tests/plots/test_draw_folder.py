@@ -47,7 +47,3 @@ class DrawFolderTest(unittest.TestCase):
                                     ("x", True, "--animate: not together with --only")):
             with self.assertRaisesRegex(RecordsError, said.replace("(", r"\(")):
                 drawing_programs(self.folder, only, animate)
-
-
-if __name__ == "__main__":
-    unittest.main()

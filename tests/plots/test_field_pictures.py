@@ -17,9 +17,9 @@ import field_drawing
 import field_panel
 import gallery
 from bars import STATES, bar
-from case_names import case_name, file_of, words_of_file
 from fields import Fields, unrolled
 from drawing import PAGE_WIDTH, SMALLEST_PT
+
 
 class UprightTest(unittest.TestCase):
     def setUp(self) -> None:
@@ -50,13 +50,6 @@ class UprightTest(unittest.TestCase):
                     self.assertGreaterEqual(words.get_fontsize(), SMALLEST_PT, words)
                     box = words.get_window_extent(renderer)
                     self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1, words)
-
-    def test_words_above_a_body_are_apart_from_its_title(self) -> None:
-        for s in (bar(10, 8, 1), replace(bar(10, 8, 1), moved=np.full_like(bar(10, 8, 1).boundary, 0.01))):
-            figure = gallery.compose([[s]])
-            _, renderer = drawn.paint(figure)
-            above, title = (text.get_window_extent(renderer) for text in figure.texts[:2])
-            self.assertGreater(above.y0, title.y1 + 8)  # pixels: half a line
 
 
 class FacesTest(unittest.TestCase):
@@ -89,53 +82,6 @@ class FacesTest(unittest.TestCase):
                 self.assertLessEqual(top + down, layout.height + 1e-9)
             for (l1, t1, w1, h1), (l2, t2, w2, h2) in combinations(boxes, 2):
                 self.assertTrue(l1 + w1 <= l2 or l2 + w2 <= l1 or t1 + h1 <= t2 or t2 + h2 <= t1)
-
-    def test_faces_are_lettered_in_both_places_and_nothing_leads_across(self) -> None:
-        s = bar(10, 60, 4)
-        figure = gallery.compose([[s]])
-        letters = [text for text in figure.axes[0].texts]
-        self.assertEqual([text.get_text() for text in letters], ["A", "B", "C", "D"])
-        heights = [text.xy[1] for text in letters]
-        self.assertEqual(heights, sorted(heights, reverse=True))  # as the strips beside the body
-        for text in letters:
-            self.assertGreater(text.get_position()[0], 0)  # outside, to the right of the face
-            self.assertAlmostEqual(text.get_position()[1], 0)
-        self.assertEqual([axes.texts[0].get_text() for axes in figure.axes[1:9:2]],
-                         ["A", "B", "C", "D"])
-        self.assertFalse(gallery.compose([[bar(10, 8, 1)]]).axes[0].texts)  # one needs no letter
-        self.assertEqual([field_panel.letter_of(k) for k in (0, 25, 26)], ["A", "Z", "A2"])
-
-    def test_a_face_that_goes_by_its_length_has_a_dot_where_it_begins(self) -> None:
-        s = bar(10, 8, 1)
-        turned = replace(s, **{key: getattr(s, key) @ [[0.8, 0.6], [-0.6, 0.8]]
-                               for key in ("corners", "boundary", "edges")})
-        for solution, dots in ((s, []), (turned, [tuple(turned.edges[0, 0])])):
-            body = gallery.compose([[solution]]).axes[0]
-            self.assertEqual([tuple(line.get_xydata()[0]) for line in body.lines
-                              if line.get_marker() == "o"], dots)
-
-    def strip(self, edges: int) -> object:
-        s = bar(10, 8, 1, edges=edges)
-        return gallery.compose([[s]]).axes[1]
-
-    def test_states_are_marks_where_there_is_room_and_a_band_else(self) -> None:
-        few = self.strip(4)
-        marks = [line for line in few.lines if line.get_marker() not in ("None", None, "")]
-        self.assertEqual(sum(len(line.get_xdata()) for line in marks), 8)
-        self.assertFalse(few.patches)
-        many = self.strip(200)
-        self.assertFalse([line for line in many.lines if line.get_marker() not in ("None", None, "")])
-        self.assertEqual([text.get_text() for text in many.texts], list(STATES))
-        ends = [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in many.patches]
-        for (_, end), (start, _) in zip(ends, ends[1:]):
-            self.assertAlmostEqual(end, start)
-        low, high = (8 / 202 * k + 2 for k in (1, 201))
-        np.testing.assert_allclose((ends[0][0], ends[-1][1]), (low, high))
-
-    def test_runs(self) -> None:
-        states = np.array([["open", "slip"], ["slip", "slip"], ["open", "open"]])
-        self.assertEqual(field_drawing.runs(states),
-                         [("open", [0]), ("slip", [1, 2, 3]), ("open", [4, 5])])
 
 
 class UnrolledTest(unittest.TestCase):
@@ -249,11 +195,3 @@ class TablesTest(unittest.TestCase):
             self.assertAlmostEqual(float(line["pressure_MPa"]), 8 * (1 - (k + 1) // 2 / 4))
             self.assertEqual(line["state"], STATES[k // 2])
             self.assertEqual((float(line["x_mm"]), line["along_mm"]), (11, line["y_mm"]))
-
-    def test_areas_are_the_bodys(self) -> None:
-        self.assertAlmostEqual(field_drawing.areas(bar(10, 8, 1)).sum(), 80)
-
-    def test_words_of_a_file_are_those_of_its_case(self) -> None:
-        for mesh, method in (("Mesh0+adapt1", "SYMMLQ:DTIC3"), ("a-b%c", "ALM:r=20,rho=20")):
-            case = dict(mesh=mesh, scene="default", method=method)
-            self.assertEqual(words_of_file(file_of(case_name(case))), f"{mesh}, default, {method}")

@@ -115,7 +115,3 @@ class WordsTest(unittest.TestCase):
         rows = made_up.read([made_up.case("Mesh0", "P2", error_force=""), made_up.case("Mesh0", "ALM")])
         panels = {"heap": lambda row: row.peak_heap_bytes, "error": lambda row: row.error_force}
         self.assertEqual(lacking(rows, panels), "No error: P2.")
-
-
-if __name__ == "__main__":
-    unittest.main()

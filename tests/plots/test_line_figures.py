@@ -11,7 +11,7 @@ from figure import load_steps as load_steps_figure
 from figure import overview as overview_figure
 from figure import peers_penalty as penalty_figure
 from figure import scaling as scaling_figure
-from records import CONTACT_SOLVERS, RecordsError
+from records import RecordsError
 
 
 def levels(mesh: str, count: int) -> list[dict]:
@@ -47,49 +47,6 @@ class AdaptiveTest(unittest.TestCase):
         loop, = (line for line in times.lines if line.get_linewidth() == 2)
         self.assertEqual(loop.get_ydata().tolist(), errors[1])
 
-    def test_loops_of_several_degrees_are_told_apart(self) -> None:
-        higher = [made_up.case(f"Mesh0+adapt{level}k2", "HYBRID:k=2", n_phi=1100 * 2**level, degree=2,
-                               adapt_level=level, adapt_time_s=0.2 * 2**level, error_total=0.05 / 4**level)
-                  for level in range(4)]
-        words = drawn.words_of(drawn.plan(made_up.read([*levels("Mesh0", 4), *higher]), "adaptive").figure())
-        for expected in ("adapted by HYBRID: $N^{-1.00}$", "adapted by HYBRID:k=2: $N^{-2.00}$",
-                         "whole loop of HYBRID:k=2"):
-            self.assertIn(expected, words)
-
-    def test_without_two_levels_there_is_none(self) -> None:
-        self.assertEqual([], list(adaptive_figure.drawings(made_up.read(levels("Mesh0", 1)))))
-        self.assertEqual([], list(adaptive_figure.drawings(made_up.read([made_up.case("Mesh0", "ALM")]))))
-
-    def test_points_of_a_turned_knob_are_not_a_methods_own(self) -> None:
-        turned = [case | {"study": "error", "knob": "contact sweeps", "knob_value": 1,
-                          "error_discretisation": 0.01} for case in levels("Mesh0", 3)]
-        self.assertEqual([], list(adaptive_figure.drawings(made_up.read(turned))))
-
-
-class ContactTest(unittest.TestCase):
-    def rows(self, programs: tuple[str, ...]) -> list:
-        study = dict(study="contact", stage_contact_s=1e-3, contact_iterations=5)
-        ours = [made_up.case(mesh, "HYBRID", contact_solver=solver, **study)
-                for mesh in ("Mesh0", "Mesh1") for solver in CONTACT_SOLVERS]
-        theirs = [made_up.case(mesh, name, program="x 1", **(study | {"stage_contact_s": 2e-3}))
-                  for mesh in ("Mesh0", "Mesh1") for name in programs]
-        return made_up.read(ours + theirs)
-
-    def test_other_programs_are_drawn_and_named_next_to_our_solvers(self) -> None:
-        drawing = drawn.plan(self.rows(("EXTERNAL:mine", "EXTERNAL:yours")), "contact")
-        self.assertEqual(len(drawing.rows), 12)
-        figure = drawing.figure()
-        self.assertIn("Other programs: EXTERNAL:mine, EXTERNAL:yours;", drawn.words_of(figure))
-        points = [tuple(point) for line in figure.axes[0].lines for point in line.get_xydata()]
-        self.assertIn((40, 2e-3), points)
-        solvers = [row["contact_solver"] for row in drawn.table_of(drawing)]
-        self.assertEqual(solvers.count("EXTERNAL:mine"), 2)
-
-    def test_without_other_programs_nothing_is_said_of_them(self) -> None:
-        words = drawn.words_of(drawn.plan(self.rows(()), "contact").figure())
-        self.assertIn("Four solvers of the condensed contact problem", words)
-        self.assertNotIn("Other programs", words)
-
 
 def refined(method: str, power: float, levels: range, **cells: object) -> list[dict[str, object]]:
     return [made_up.case(f"Mesh3+refine{k}", method, n_phi=6000 * 4**k, time_s=1e-6 * (6000 * 4**k)**power,
@@ -119,9 +76,6 @@ class GrowthTest(unittest.TestCase):
                          [("1e-12", "false"), ("1e-07", "true")])
         self.assertIn("HYBRID:CG: $n^{1.00}$", drawn.words_of(drawing.figure()))
 
-    def test_without_refined_meshes_there_is_none(self) -> None:
-        self.assertEqual(list(growth_figure.drawings(made_up.read(made_up.sizes_to_the_limit()))), [])
-
 
 class OverviewTest(unittest.TestCase):
     ADAPTED = [made_up.case(f"Mesh0+adapt{k}", "HYBRID", n_phi=800 * 2**k, error_total=0.04 / 2**k,
@@ -140,10 +94,6 @@ class OverviewTest(unittest.TestCase):
         words = drawn.words_of(drawing.figure())
         for curve in curves:
             self.assertIn(curve.words, words)
-
-    def test_it_needs_both_stops_and_adapted_meshes(self) -> None:
-        for rows in (self.ADAPTED, self.BOTH, self.ADAPTED + self.BOTH[:1]):
-            self.assertEqual(list(overview_figure.drawings(made_up.read(rows))), [])
 
 
 class PeersPenaltyTest(unittest.TestCase):
@@ -178,18 +128,6 @@ class PeersPenaltyTest(unittest.TestCase):
         painted, renderer = drawn.paint(figure)
         drawn.assert_readable(self, figure, painted, renderer)
 
-    def test_its_table(self) -> None:
-        drawing, = penalty_figure.drawings(made_up.read(self.rows(("Mesh0",))))
-        table = {row["method"]: row for row in drawn.table_of(drawing)}
-        self.assertEqual(set(table), {"P2", "HYBRID", "EXTERNAL:y", *(f"EXTERNAL:x:penalty={value}" for value in self.ERRORS)})
-        soft = table["EXTERNAL:x:penalty=50"]
-        self.assertEqual((soft["parameter"], float(soft["value"]), float(soft["error"])), ("penalty", 50, 0.3))
-        self.assertEqual(table["P2"]["value"], "")
-
-    def test_one_value_is_no_line(self) -> None:
-        rows = [row for row in self.rows() if not row["method"].endswith(("=50", "=500"))]
-        self.assertEqual(list(penalty_figure.drawings(made_up.read(rows))), [])
-
 
 class DegreesTest(unittest.TestCase):
     METHODS = {"HYBRID": 1, "HYBRID:k=2": 2, "HYBRID:k=3": 3, "HYBRID:k=4": 4}
@@ -220,39 +158,6 @@ class DegreesTest(unittest.TestCase):
         painted, renderer = drawn.paint(figure)
         drawn.assert_readable(self, figure, painted, renderer)
         self.assertEqual({line["degree"] for line in drawn.table_of(drawing)}, set("1234"))
-
-    def test_other_methods_and_meshes_are_drawn_too(self) -> None:
-        rows = (self.levels("Mesh0", "default", self.METHODS)
-                + self.levels("Mesh0", "default", {"P3": 2, "EXTERNAL:mine": 1})
-                + [made_up.case(mesh, "HYBRID", error_total=0.2, time_s=0.01) for mesh in ("Mesh0", "Mesh1")])
-        words = drawn.words_of(drawn.plan(made_up.read(rows), "degrees").figure())
-        for name in ("P3", "mine", "HYBRID, degree 1", "Meshes: as they are (open, dashed)"):
-            self.assertEqual(words.count(name), 1, name)
-
-    def test_meshes_of_another_degrees_loop_have_its_time_and_are_left_out(self) -> None:
-        borrowed = [case | {"mesh": case["mesh"].removesuffix("k2")}
-                    for case in self.levels("Mesh0", "default", {"HYBRID:k=2": 2})]
-        rows = made_up.read(self.levels("Mesh0", "default", {"HYBRID": 1}) + borrowed)
-        self.assertEqual(list(degrees_figure.drawings(rows)), [])
-
-    def test_without_a_second_degree_there_is_none(self) -> None:
-        for methods in ({"HYBRID": 1}, {"HYBRID": 1, "P2": 1}, {"HYBRID:k=2": 2}):
-            rows = made_up.read(self.levels("Mesh0", "default", methods))
-            self.assertEqual(list(degrees_figure.drawings(rows)), [])
-        older = [{key: value for key, value in case.items() if key != "degree"}
-                 for case in self.levels("Mesh0", "default", {"HYBRID": 1})]
-        self.assertEqual({row.degree for row in made_up.read(older)}, {1})
-
-    def test_degrees_have_their_colours_and_names_in_the_other_figures(self) -> None:
-        rows = made_up.read(self.levels("Mesh0", "default", self.METHODS | {"P2": 1, "P3": 2, "P4": 3}))
-        looks = {row.method: (row.look.colour, row.look.marker) for row in rows}
-        self.assertEqual(len(set(looks.values())), 7)
-        self.assertEqual(looks["HYBRID"][0], "#000000")
-        of_family, = {row.look[:2] for row in made_up.read(self.levels("Mesh0", "default", {"P3": 2}, family="P2"))}
-        self.assertEqual(of_family, looks["P3"])  # whether it is its own family or one of P2's
-        words = drawn.words_of(drawn.plan(rows, "adaptive").figure())
-        for name in ("HYBRID, degree 2", "HYBRID, degree 4", "P4"):
-            self.assertIn(name, words)
 
     def test_a_degree_that_cannot_be_is_refused(self) -> None:
         for degree in (0, 1.5, "two"):
@@ -285,20 +190,6 @@ class LoadStepsTest(unittest.TestCase):
             self.assertAlmostEqual(line.get_ydata()[-1], once + STEPS[-1] * each)
         for method in COSTS:
             self.assertIn(method, drawn.words_of(figure))
-
-    def test_its_numbers_stand_beside_it(self) -> None:
-        (drawing,) = load_steps_figure.drawings(paths())
-        table = drawn.table_of(drawing)
-        self.assertEqual(len(table), len(COSTS) * len(STEPS))
-        self.assertEqual(table[0].keys(), set(load_steps_figure.COLUMNS))
-
-    def test_without_a_time_it_says_so(self) -> None:
-        (drawing,) = load_steps_figure.drawings(paths(dict(status="timeout", time_s="")))
-        self.assertIn("has a time", drawing.figure())
-
-    def test_other_runs_have_none(self) -> None:
-        self.assertEqual(list(load_steps_figure.drawings(paths(dict(study="")))), [])
-
 
 # Mesh2 has 3105 unknowns, Mesh3 6287: 1.012 times the double.
 THREADED = {("Mesh2", 1): 1.0, ("Mesh2", 2): 0.6, ("Mesh3", 1): 3.0, ("Mesh3", 2): 1.6}
@@ -350,14 +241,22 @@ class ScalingTest(unittest.TestCase):
         for cases in (threaded({("Mesh3", 2): 1.0}), threaded(status="inaccurate", outcome="inaccurate")):
             self.assertEqual({point.speed_up for point in self.points(cases).values()}, {None})
 
-    def test_the_figure_says_what_it_shows(self) -> None:
-        (drawing,) = scaling_figure.drawings(made_up.read_lines(threaded() + threaded(scene="other")))
-        words = drawn.words_of(drawing.figure())
-        for part in ("Mesh2: speed-up", "Mesh3: speed-up", "growing meshes", "1.01 times",
-                     "takes 1.1 times as long as alone", "3STEPD"):
-            self.assertIn(part, words)
-        table = drawn.table_of(drawing)
-        self.assertEqual([(line["mesh"], line["threads"]) for line in table],
-                         [(mesh, str(threads)) for mesh, threads in THREADED])
-        self.assertEqual(list(scaling_figure.drawings(made_up.read_lines(threaded(study="", knob="",
-                                                                      knob_value=None)[:1]))), [])
+
+class NoneTest(unittest.TestCase):
+    def test_without_what_it_compares_a_figure_is_not_drawn(self) -> None:
+        turned = [case | {"study": "error", "knob": "contact sweeps", "knob_value": 1, "error_discretisation": 0.01}
+                  for case in levels("Mesh0", 3)]
+        adapted, both = OverviewTest.ADAPTED, OverviewTest.BOTH
+        penalty = [row for row in PeersPenaltyTest().rows() if not row["method"].endswith(("=50", "=500"))]
+        of_degrees = DegreesTest().levels
+        borrowed = [case | {"mesh": case["mesh"].removesuffix("k2")}
+                    for case in of_degrees("Mesh0", "default", {"HYBRID:k=2": 2})]
+        steps = [made_up.case("Mesh3", "ALM", load_steps=5, time_s=1)]
+        for module, *rows in ((adaptive_figure, levels("Mesh0", 1), [made_up.case("Mesh0", "ALM")], turned),
+                              (growth_figure, made_up.sizes_to_the_limit()),
+                              (overview_figure, adapted, both, adapted + both[:1]),
+                              (penalty_figure, penalty), (load_steps_figure, steps),
+                              (degrees_figure, of_degrees("Mesh0", "default", {"HYBRID": 1, "P2": 1}),
+                               of_degrees("Mesh0", "default", {"HYBRID": 1}) + borrowed)):
+            for own in rows:
+                self.assertEqual(list(module.drawings(made_up.read(own))), [], module.__name__)

@@ -59,7 +59,3 @@ class NotebookTest(unittest.TestCase):
             rounded = pd.read_json(file, lines=True).time_s
             np.testing.assert_allclose(rounded, times, rtol=5e-12, err_msg=str(file))
             self.assertEqual(table.method.tolist(), [line["method"] for line in lines], file)
-
-
-if __name__ == "__main__":
-    unittest.main()

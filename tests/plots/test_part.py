@@ -1,7 +1,6 @@
 """The picture and the page of a solve, of a made-up block.  /usr/bin/python3 -m unittest FILE"""
 import json
 import re
-import unittest
 from pathlib import Path
 
 import numpy as np
@@ -134,7 +133,3 @@ class PartTest(FolderTest):
         for words in ("total error 0.9 % in energy: of the mesh", "not used: *PREPRINT", "plane strain"):
             self.assertIn(words, view.document.words)
         self.assertTrue(view.document.one("img").get("src").startswith("data:image/png;base64,"))
-
-
-if __name__ == "__main__":
-    unittest.main()

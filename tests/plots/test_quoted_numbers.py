@@ -4,6 +4,7 @@ import shutil
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import made_up  # finds plots
 
@@ -43,14 +44,17 @@ def other(number: str) -> str:
 
 
 class CommittedNumbersTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.runs = quoted_numbers.Runs(PROJECT / "results")
-        self.quotes = list(quoted_numbers.quotes_in(PROJECT / "docs" / "numbers.txt"))
-        self.texts = {quote.file: (PROJECT / quote.file).read_text(encoding="utf-8")
-                      for quote in self.quotes}
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.runs = quoted_numbers.Runs(PROJECT / "results")  # read once for all tests
+        cls.quotes = list(quoted_numbers.quotes_in(PROJECT / "docs" / "numbers.txt"))
+        cls.texts = {quote.file: (PROJECT / quote.file).read_text(encoding="utf-8")
+                     for quote in cls.quotes}
 
     def test_every_quoted_number_follows_from_the_records(self) -> None:
-        differences = quoted_numbers.differences(PROJECT)
+        with mock.patch.object(quoted_numbers, "Runs", return_value=self.runs) as runs:
+            differences = quoted_numbers.differences(PROJECT)
+        runs.assert_called_once_with(PROJECT / "results")
         self.assertIn("README.md", differences)
         self.assertEqual([], [d.sentence() for of_file in differences.values() for d in of_file])
 

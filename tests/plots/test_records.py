@@ -7,7 +7,7 @@ from unittest import mock
 import made_up  # finds plots
 
 import records
-from catalogue import FAMILIES, MEASURES, catalogue_mesh, looks_of, plain_looks
+from catalogue import MEASURES, catalogue_mesh
 from case_names import case_name, file_of
 from made_up import case, read
 from running import FolderTest
@@ -227,24 +227,6 @@ class SelectionTest(unittest.TestCase):
         rows = read([case("Mesh0", name) for name in (
             "ALM:r=20,rho=40", "ALM", "MINE:r=1e-6,rho=2", "ALM:r=a,rho=b")])
         self.assertEqual([given(row) for row in rows], [(20, 40), None, (1e-6, 2), None])
-
-
-class LooksTest(unittest.TestCase):
-    def test_families_differ_and_stay(self) -> None:
-        own = [f"OWN{k}" for k in range(12)]
-        looks = looks_of(["ALM", *own])
-        self.assertEqual(len({look[:2] for look in looks.values()}), len(FAMILIES) + len(own))
-        self.assertEqual(looks["ALM"][:2], FAMILIES["ALM"])
-        self.assertEqual(looks_of(["OWN0", "OWN1"])["OWN1"], looks["OWN1"])
-
-    def test_markers_without_colour_differ(self) -> None:
-        methods = {f"M{k}": (family, preconditioner) for k, (family, preconditioner) in enumerate(
-            [("SYMMLQ", "DTIC3"), ("SYMMLQ", "JACOBI"), ("3STEPD", ""), ("3STEPD", ""),
-             ("NEWTON", ""), ("OTHER", "JACOBI")])}
-        looks = plain_looks(methods)
-        self.assertEqual(len({marker for marker, _ in looks.values()}), len(methods))
-        self.assertEqual(looks["M1"][1], looks["M5"][1])  # the same preconditioner
-        self.assertEqual((looks["M2"], looks["M4"][1]), (("o", "-"), "-"))
 
 
 class CaseNamesTest(unittest.TestCase):

@@ -208,7 +208,3 @@ class RevisionTest(unittest.TestCase):
         (self.work / "source.new").mkdir(parents=True)
         (self.work / "source.new/file").touch()
         self.assertEqual(self.pinned(None), "two")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,7 +4,7 @@ import shutil
 import struct
 import tempfile
 import unittest
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
 
@@ -86,10 +86,6 @@ class StudyFiguresTest(drawn.FiguresTest):
         self.assertIn("convergence: left out: fewer than two meshes", out)
         self.assertIn("stop_and_error: left out: no two methods NAME:r=..,rho=..", out)
 
-    def test_one_size_makes_no_line(self) -> None:
-        out, _ = self.draw([row for row in made_up.sizes_to_the_limit() if row["mesh"] == "Mesh0"])
-        self.assertIn("all_methods: left out: no method has two sizes\n", out)
-
     def test_the_papers_figures_pass_over_studies(self) -> None:
         planned = figures.drawings_of(read(made_up.error_study(["Mesh0"])[:5]))
         self.assertEqual([drawing.name for drawing in planned],
@@ -149,12 +145,6 @@ class WorkPrecisionTest(drawn.FiguresTest):
         self.assertEqual([len(line.get_xdata()) for line in grey], [8] * 3)
         self.assertTrue(all(line.get_zorder() < 2 for line in grey))
 
-    def test_one_set_of_parameters_is_a_curve_like_others(self) -> None:
-        rows = read([made_up.point("Mesh1", "ALM:r=20,rho=20", 0.01 * 2**k, 1e-3 * 4.0**-k,
-                                        knob="uzawa iterations", knob_value=2**k) for k in range(8)])
-        self.assertEqual(work_precision_figure.families_of(work_precision_figure.curves_of(rows)), {})
-        self.assertIn("ALM:r=20,rho=20", words_of(work_precision_figure.draw(rows)))
-
     def test_a_row_without_an_error_is_named(self) -> None:
         rows = made_up.error_study(["Mesh3"], sweep=False)
         rows[0] |= dict(status="timeout", outcome="timeout", time_s="", error_force="")
@@ -199,23 +189,6 @@ class ParetoTest(drawn.FiguresTest):
         self.assertEqual(table[-1][0], percent(0.1))
         self.assertEqual((table[-1][2], table[-1][5]), ("Mesh3", "Mesh3"))
 
-    def test_levels_can_be_reached(self) -> None:
-        for errors in ([0.077, 0.31], [0.2], [1e-4, 0.5], [0.03, 0.031]):
-            levels = pareto_figure.levels(errors)
-            self.assertTrue(1 <= len(levels) <= pareto_figure.LEVELS)
-            self.assertTrue(all(level >= min(errors) for level in levels), errors)
-
-    def test_coarse_meshes_are_not_cut_off(self) -> None:
-        rows = read(made_up.error_study(["Mesh0"], sweep=False))
-        for floor, highest in ((0.01, 0.2), (0.3, 0.45), (0.9, 1)):
-            self.assertAlmostEqual(pareto_figure.highest_of(
-                [replace(row, error_discretisation=floor) for row in rows]), highest)
-
-    def test_bodies_are_kept_apart(self) -> None:
-        words = words_of(pareto_figure.draw(read(made_up.error_study(["Mesh3", "Mesh4"]))))
-        self.assertIn("one tooth", words)
-        self.assertIn("rack of four teeth", words)
-
     def test_each_kind_of_meshes_has_a_front(self) -> None:
         study = made_up.error_study(["Mesh1"], sweep=False)
         levels = [made_up.case(f"Mesh0+{kind}{k}", "HYBRID", n_phi=800 * 3**k, adapt_level=k,
@@ -240,19 +213,6 @@ class ConvergenceTest(drawn.FiguresTest):
         words = words_of(convergence_figure.draw(rows))
         self.assertIn("one tooth: $h^{0.90}$", words)
         self.assertIn("bounds of the energy, rack", words)
-
-    def test_bounds_of_another_scene(self) -> None:
-        rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
-        smooth = made_up.error_study(["Mesh0", "Mesh1"], sweep=False)
-        rows += [row | dict(scene="frictionless") for row in smooth]
-        words = words_of(convergence_figure.draw(read(rows)))
-        self.assertIn("Below: scene frictionless", words)
-        self.assertEqual(words.count("bounds of the energy, one tooth"), 1)
-
-    def test_without_bounds(self) -> None:
-        rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
-        words = words_of(convergence_figure.draw(read(rows)))
-        self.assertNotIn("bounds", words)
 
 
 class MemoryFigureTest(drawn.FiguresTest):
@@ -281,11 +241,6 @@ class MemoryFigureTest(drawn.FiguresTest):
         self.assertNotIn("answer", words)
         self.assertNotIn("differs", words)
 
-    def test_a_count_that_differs_is_named(self) -> None:
-        record = made_up.split("Mesh0", "3STEPD") | {"memory_counts_differ": True}
-        words = words_of(memory_figure.draw(self.bars(record, made_up.split("Mesh0", "HYBRID")), []))
-        self.assertIn("differs from the heap by more than 10 %: 3STEPD.", words)
-
     def test_other_records_are_passed_over(self) -> None:
         other = made_up.split("Mesh0", "3STEPD")
         self.assertEqual(self.bars(
@@ -306,11 +261,6 @@ class MemoryFigureTest(drawn.FiguresTest):
 
 
 class OtherFiguresTest(drawn.FiguresTest):
-    def test_all_methods(self) -> None:
-        figure = everything().figures["all_methods"]
-        words = words_of(figure)
-        self.assertIn("Mesh7-refined2", words)
-        self.assertIn("3STEPD:CHOLMOD $n^{1.30}$", words)
 
     def test_stop_and_error(self) -> None:
         rows = read(made_up.error_study(["Mesh1"]))

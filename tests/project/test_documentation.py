@@ -71,7 +71,3 @@ class DocumentationTest(unittest.TestCase):
                 for name in names if name}
         self.assertGreater(len(read), 10)
         self.assertEqual(documented, read)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -123,7 +123,3 @@ class IncludesTest(unittest.TestCase):
         self.assertGreater(len(sources), 300)
         included = set((PROJECT / "tests/solvers/example").iterdir())  # by example_test.cpp
         self.assertEqual(set(), sources - listed - included)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -26,7 +26,3 @@ class ReleaseTest(unittest.TestCase):
         text = (PROJECT / "CHANGELOG.md").read_text(encoding="utf-8")
         headings = set(re.findall(r"^## \[(.+?)\]", text, re.M))
         self.assertEqual(headings, set(re.findall(r"^\[(.+?)\]: \S", text, re.M)))
-
-
-if __name__ == "__main__":
-    unittest.main()

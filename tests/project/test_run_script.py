@@ -217,7 +217,3 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
                 ran = self.compare(Path(name), *arguments)
                 self.assertEqual((ran.returncode, ran.stdout), (2, ""))
                 self.assertIn(f"run: compare: {said}", ran.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -46,7 +46,3 @@ class WorkflowTest(unittest.TestCase):
             checked = subprocess.run(["bash", "-n"], input=step, text=True, capture_output=True,
                                      check=False)
             self.assertEqual((checked.returncode, checked.stderr), (0, ""), step)
-
-
-if __name__ == "__main__":
-    unittest.main()

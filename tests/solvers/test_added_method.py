@@ -32,7 +32,3 @@ class AddedMethod(unittest.TestCase):
             self.assertIn("figure", drawn)
             words = "".join(file.read_text(encoding="utf-8") for file in Path(folder, "figures").glob("*.csv"))
             self.assertIn(NAME, words)
-
-
-if __name__ == "__main__":
-    unittest.main()

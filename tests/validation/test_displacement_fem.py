@@ -68,7 +68,3 @@ class Refusals(unittest.TestCase):
                                   MESHES / "Mesh0.msh", scene], capture_output=True, text=True)
         self.assertEqual(run.returncode, 1)
         self.assertEqual(run.stderr, f"{scene}: not known here: mesh\n")
-
-
-if __name__ == "__main__":
-    unittest.main()
