@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import matplotlib
 import numpy as np
-from matplotlib.figure import Figure
 
 import drawn
 import running  # finds plots
@@ -12,7 +11,7 @@ import running  # finds plots
 import field_drawing
 import gallery
 from bars import bar
-from fields import by_edge, parts, unrolled
+from fields import by_edge, parts
 
 
 class DisplacedTest(unittest.TestCase):
@@ -104,13 +103,3 @@ class DisplacedTest(unittest.TestCase):
         words = drawn.words_of(figure)
         for word in ("outline, displaced", "wall", "held", "stick", "keeps its shape"):
             self.assertIn(word, words)
-
-    def test_rollers_lie_on_their_edge_in_the_body_and_at_a_face(self) -> None:
-        s = replace(self.s, role=np.where(self.s.role == "force", "rollers", self.s.role))
-        line = unrolled(s.edges[s.faces()[0]])
-        for seen in (s, line.seen(s, s.faces()[0], 20)):
-            axes = Figure().add_axes([0, 0, 1, 1])
-            field_drawing.draw_boundary(axes, seen)
-            marks = np.vstack([mark.get_xydata() for mark in axes.lines if mark.get_marker() == "o"])
-            middles = seen.placed(seen.boundary[seen.role == "rollers"].mean(1))
-            np.testing.assert_allclose(np.sort(marks, axis=0), np.sort(middles, axis=0))

@@ -10,26 +10,6 @@ from figure import atlas as atlas_figure
 from made_up import read
 
 
-class AdaptedMethodsTest(drawn.FiguresTest):
-    CASES = [made_up.case(mesh, method, study="adapted", n_phi=n_phi, time_s=time_s,
-                          error_discretisation=0.005, error_total=0.005, condition_estimate=3e9)
-             for mesh, n_phi in (("Mesh0+adapt2", 1500), ("Mesh4+adapt1", 15000))
-             for method, time_s in (("HYBRID", 0.01), ("3STEPD", 0.2))]
-
-    def test_a_cell_per_case_and_a_table_beside_it(self) -> None:
-        lost = dict(status="timeout", outcome="timeout", time_s="", error_force="", error_stress="")
-        rows = read([*self.CASES[:3], self.CASES[3] | lost])
-        drawing = drawn.plan(rows, "adapted_methods")
-        self.assertEqual((".png", ".csv"), drawing.suffixes)
-        figure = drawing.figure()
-        self.assertEqual(4, len(figure.axes[0].patches))
-        words = words_of(figure)
-        for expected in ("HYBRID", "10 ms", "κ 3e9", "timeout", "0.5 %"):
-            self.assertIn(expected, words)
-        self.assertEqual([line["outcome"] for line in drawn.table_of(drawing)].count("timeout"), 1)
-        self.assertEqual(len(drawn.table_of(drawing)), 4)
-
-
 class AtlasTest(drawn.FiguresTest):
     def test_a_cell_per_case(self) -> None:
         rows = read(made_up.stability_study())

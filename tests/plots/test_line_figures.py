@@ -22,16 +22,6 @@ def levels(mesh: str, count: int) -> list[dict]:
 
 
 class AdaptiveTest(unittest.TestCase):
-    def test_adapted_meshes_are_beside_those_of_their_body_with_their_rate(self) -> None:
-        uniform = [made_up.case(mesh, "HYBRID", error_total=0.04 / (k + 1))
-                   for k, mesh in enumerate(("Mesh0", "Mesh1"))]
-        rows = made_up.read([*levels("Mesh0", 5), *uniform])
-        self.assertEqual({"one tooth"}, {row.body for row in rows})
-        drawing = drawn.plan(rows, "adaptive")
-        self.assertEqual(len(rows), len(drawing.rows))
-        words = drawn.words_of(drawing.figure())
-        for expected in ("adapted: $N^{-1.00}$", "as they are", "whole loop", "one tooth"):
-            self.assertIn(expected, words)
 
     def test_a_loop_has_the_errors_of_the_method_that_solves_its_levels(self) -> None:
         others = [made_up.case(f"Mesh0+adapt{level}", "P2", n_phi=1000 * 2**level, adapt_level=level,
@@ -96,101 +86,6 @@ class OverviewTest(unittest.TestCase):
             self.assertIn(curve.words, words)
 
 
-class PeersPenaltyTest(unittest.TestCase):
-    ERRORS = {"50": 0.3, "500": 0.04, "5000": 0.03}
-
-    def rows(self, meshes: tuple[str, ...] = ("Mesh0", "Mesh1")) -> list[dict]:
-        body = dict(in_displacements="true", program="x 1", family="EXTERNAL:x", error_stress="", error_force="")
-        sweep = [made_up.case(mesh, f"EXTERNAL:x:penalty={value}", time_s=0.2 * k + 0.1, error_discretisation=error,
-                              status="inaccurate" if value == "50" else "ok", outcome="ok",
-                              error_total="" if value == "50" else error,
-                              parameters=f"penalty={value}; direct", **body)
-                 for mesh in meshes for k, (value, error) in enumerate(self.ERRORS.items())]
-        others = [made_up.case(mesh, method, time_s=1e-3, error_total=0.02)
-                  for mesh in meshes for method in ("P2", "HYBRID", "3STEPD")]
-        single = made_up.case("Mesh0", "EXTERNAL:y", error_total=0.1, **body | {"family": "EXTERNAL:y"})
-        return [*sweep, *others, single]
-
-    def test_a_line_per_program_by_value(self) -> None:
-        drawing, = penalty_figure.drawings(made_up.read(self.rows()))
-        figure = drawing.figure()
-        self.assertEqual([axes.get_title() for axes in figure.axes], ["Mesh0", "Mesh1"])
-        for axes in figure.axes:
-            sweep, = (line for line in axes.lines if len(line.get_xdata()) == 3)
-            self.assertEqual(list(sweep.get_ydata()), list(self.ERRORS.values()))
-            self.assertEqual({text.get_text() for text in axes.texts},
-                             {"x", "50", "500", "5000", "P2", "HYBRID", *["y"] * (axes.get_title() == "Mesh0")})
-            hollow = [line for line in axes.lines if line.get_markerfacecolor() == "white"]
-            self.assertEqual([line.get_ydata()[0] for line in hollow], [0.3])  # what is not ok
-        words = drawn.words_of(figure)
-        self.assertIn("(x: penalty)", words)
-        self.assertIn("3STEPD (not in displacements)", words)
-        painted, renderer = drawn.paint(figure)
-        drawn.assert_readable(self, figure, painted, renderer)
-
-
-class DegreesTest(unittest.TestCase):
-    METHODS = {"HYBRID": 1, "HYBRID:k=2": 2, "HYBRID:k=3": 3, "HYBRID:k=4": 4}
-    BODIES = (("Mesh0", "default"), ("Mesh4", "default"), ("L", "L"), ("cylinder", "pressed"),
-              ("ring", "ring"))
-
-    def levels(self, mesh: str, scene: str, methods: dict[str, int], **cells: object) -> list[dict]:
-        return [made_up.case(f"{mesh}+adapt{level}" + f"k{degree}" * method.startswith("HYBRID:k="),
-                             method, scene=scene, degree=degree,
-                             n_phi=800 * 2**level, adapt_time_s=0.1 * degree * 2**level,
-                             error_total=0.3 / 2**(degree * level)) | cells
-                for method, degree in methods.items() for level in range(3)]
-
-    def test_a_panel_for_each_of_four_bodies_and_a_line_for_each_degree(self) -> None:
-        rows = [case for body in self.BODIES for case in self.levels(*body, self.METHODS)]
-        drawing = drawn.plan(made_up.read(rows), "degrees")
-        figure = drawing.figure()
-        self.assertEqual([axes.get_title() for axes in figure.axes],
-                         ["one tooth", "rack of four teeth", "L", "cylinder, scene pressed"])
-        self.assertIn("Bodies not drawn: ring.", drawn.words_of(figure))
-        for axes in figure.axes:
-            words = {text.get_text() for text in axes.texts}
-            self.assertEqual(words, {f"HYBRID, degree {k}" for k in range(1, 5)})
-            curves = [line for line in axes.lines if len(line.get_xdata()) == 3]
-            self.assertEqual(len({line.get_color() for line in curves}), 4)
-            self.assertEqual(len({line.get_marker() for line in curves}), 4)
-            self.assertEqual({round(line.get_xdata()[0], 9) for line in curves}, {0.1, 0.2, 0.3, 0.4})  # whole loops
-        painted, renderer = drawn.paint(figure)
-        drawn.assert_readable(self, figure, painted, renderer)
-        self.assertEqual({line["degree"] for line in drawn.table_of(drawing)}, set("1234"))
-
-    def test_a_degree_that_cannot_be_is_refused(self) -> None:
-        for degree in (0, 1.5, "two"):
-            with self.assertRaisesRegex(RecordsError, "degree is .*, expected a whole number from 1 on"):
-                made_up.read(self.levels("Mesh0", "default", {"HYBRID": 1}, degree=degree))
-
-
-STEPS = (1, 5, 20)
-COSTS = {"3STEPD:CHOLMOD": (0.13, 0.02), "ALM": (0, 0.1)}  # once, and each step
-
-
-def paths(cells: dict | None = None) -> list:
-    made = [made_up.case("Mesh3", method, study="load-steps", scene=f"steps_{count:02d}",
-                         load_steps=count, time_s=once + count * each, time_once_s=once or 1e-3,
-                         time_per_load_s=each) | (cells or {})
-            for method, (once, each) in COSTS.items() for count in STEPS]
-    return made_up.read(made)
-
-
-class LoadStepsTest(unittest.TestCase):
-    def test_a_curve_per_method_over_its_steps(self) -> None:
-        (drawing,) = load_steps_figure.drawings(paths())
-        figure = drawing.figure()
-        (axes,) = [axes for axes in figure.axes if axes.get_xlabel()]
-        curves = [line for line in axes.lines if len(line.get_xdata()) == len(STEPS)]
-        self.assertEqual(len(curves), len(COSTS))
-        for line, (once, each) in zip(sorted(curves, key=lambda line: -line.get_ydata()[0]),
-                                      sorted(COSTS.values(), key=lambda cost: -sum(cost))):
-            self.assertEqual(tuple(line.get_xdata()), STEPS)
-            self.assertAlmostEqual(line.get_ydata()[-1], once + STEPS[-1] * each)
-        for method in COSTS:
-            self.assertIn(method, drawn.words_of(figure))
-
 # Mesh2 has 3105 unknowns, Mesh3 6287: 1.012 times the double.
 THREADED = {("Mesh2", 1): 1.0, ("Mesh2", 2): 0.6, ("Mesh3", 1): 3.0, ("Mesh3", 2): 1.6}
 GROWTH = 6287 / 3105
@@ -243,20 +138,29 @@ class ScalingTest(unittest.TestCase):
 
 
 class NoneTest(unittest.TestCase):
+    def degrees(self, mesh: str = "Mesh0", **methods: int) -> list[dict]:
+        """Levels on which each method has its degree."""
+        return [made_up.case(f"{mesh}+adapt{level}", method, degree=degree, n_phi=800 * 2**level,
+                             adapt_time_s=0.1 * 2**level, error_total=0.3 / 2**(degree * level))
+                for method, degree in methods.items() for level in range(3)]
+
     def test_without_what_it_compares_a_figure_is_not_drawn(self) -> None:
         turned = [case | {"study": "error", "knob": "contact sweeps", "knob_value": 1, "error_discretisation": 0.01}
                   for case in levels("Mesh0", 3)]
         adapted, both = OverviewTest.ADAPTED, OverviewTest.BOTH
-        penalty = [row for row in PeersPenaltyTest().rows() if not row["method"].endswith(("=50", "=500"))]
-        of_degrees = DegreesTest().levels
-        borrowed = [case | {"mesh": case["mesh"].removesuffix("k2")}
-                    for case in of_degrees("Mesh0", "default", {"HYBRID:k=2": 2})]
+        penalty = [made_up.case(mesh, "EXTERNAL:x:penalty=5000", parameters="penalty=5000; direct", program="x 1",
+                                in_displacements="true", error_total=0.03) for mesh in ("Mesh0", "Mesh1")]
+        borrowed = self.degrees(HYBRID=1) + self.degrees(**{"HYBRID:k=2": 2})  # on the meshes of degree 1
         steps = [made_up.case("Mesh3", "ALM", load_steps=5, time_s=1)]
         for module, *rows in ((adaptive_figure, levels("Mesh0", 1), [made_up.case("Mesh0", "ALM")], turned),
                               (growth_figure, made_up.sizes_to_the_limit()),
                               (overview_figure, adapted, both, adapted + both[:1]),
                               (penalty_figure, penalty), (load_steps_figure, steps),
-                              (degrees_figure, of_degrees("Mesh0", "default", {"HYBRID": 1, "P2": 1}),
-                               of_degrees("Mesh0", "default", {"HYBRID": 1}) + borrowed)):
+                              (degrees_figure, self.degrees(HYBRID=1, P2=1), borrowed)):
             for own in rows:
                 self.assertEqual(list(module.drawings(made_up.read(own))), [], module.__name__)
+
+    def test_a_degree_that_cannot_be_is_refused(self) -> None:
+        for degree in (0, 1.5, "two"):
+            with self.assertRaisesRegex(RecordsError, "degree is .*, expected a whole number from 1 on"):
+                made_up.read([made_up.case("Mesh0", "HYBRID", degree=degree)])

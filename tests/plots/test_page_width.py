@@ -124,7 +124,8 @@ class PageTest(unittest.TestCase):
                                   ("bounds", "n_phi", "lower_bound_Nmm", 1),
                                   ("bounds", "n_phi", "upper_bound_Nmm", 1),
                                   ("bounds", "n_phi", "relative_gap", 1),
-                                  ("all_methods", "n_phi", "time_s", 1)):
+                                  ("all_methods", "n_phi", "time_s", 1),
+                                  ("load_steps", "load_steps", "time_s", 1)):
             points = np.array([point for k in range(len(self.figures[name].axes))
                               for point in self.points(name, k)])
             for line in drawn.table_of(self.drawings[name]):

@@ -114,17 +114,6 @@ class ProfilesTest(unittest.TestCase):
         self.assertFalse(profile_figure.order_depends_on_best(np.array([[1, 2, 3]] * 3, float), 2))
         self.assertIsNone(profile_figure.order_depends_on_best(costs[:, :2]))
 
-    def test_its_table_has_every_step(self) -> None:
-        drawing, = profile_figure.drawings(made_up.read_lines(lines()))
-        figure = drawing.figure()
-        table = drawn.table_of(drawing)
-        steps = {(float(line["factor_of_best"]), float(line["share_solved"])) for line in table
-                 if (line["profile"], line["quantity"], line["method"])
-                 == ("performance", "time_s", "BLIND")}
-        self.assertEqual(steps, {(1, 0.5), (2, 0.75), (3, 1)})
-        points = {tuple(point) for line in figure.axes[0].lines for point in line.get_xydata()}
-        self.assertLessEqual(steps, points)
-
     def test_too_few_are_left_out_with_the_reason(self) -> None:
         for cases, reason in ((lines({"3STEPD": TIMES["3STEPD"]}), "1 method on 4 cases"),
                               (lines({m: own[:2] for m, own in TIMES.items()}), "3 methods on 2 case"),

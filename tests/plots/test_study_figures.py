@@ -108,15 +108,6 @@ class WorkPrecisionTest(drawn.FiguresTest):
         for method, _ in curves:
             self.assertIn(method, words)
 
-    def test_every_point_is_drawn(self) -> None:
-        rows = read(made_up.error_study(["Mesh1"]))
-        figure = everything().figures["work_precision_Mesh1"]
-        points = {tuple(point) for axes in figure.axes for line in axes.lines
-                  for point in line.get_xydata()}
-        for row in rows:
-            if row.error_force:
-                self.assertIn((row.time_s, row.error_force), points, row)
-
     def test_many_parameters_are_behind_the_best_of_them(self) -> None:
         cases = made_up.error_study(["Mesh1"], sweep=False)
         for r, factor in ((1, 3.0), (20, 1.0), (300, 0.5)):
@@ -144,20 +135,6 @@ class WorkPrecisionTest(drawn.FiguresTest):
                 if line.get_color() == work_precision_figure.GREY]
         self.assertEqual([len(line.get_xdata()) for line in grey], [8] * 3)
         self.assertTrue(all(line.get_zorder() < 2 for line in grey))
-
-    def test_a_row_without_an_error_is_named(self) -> None:
-        rows = made_up.error_study(["Mesh3"], sweep=False)
-        rows[0] |= dict(status="timeout", outcome="timeout", time_s="", error_force="")
-        words = words_of(work_precision_figure.draw(read(rows)))
-        self.assertIn("No point: 3STEPD on Mesh3 (timeout).", words)
-
-    def test_a_point_of_a_solve_that_was_stopped_is_drawn_and_not_named(self) -> None:
-        stopped = [made_up.case("Mesh0", "HYBRID", study="error", status="not_converged", knob="contact sweeps",
-                                knob_value=k, error_force=0.1**k) for k in (1, 2)]
-        lost = [case | dict(method="BLIND", general_name="BLIND", time_s="", error_force="") for case in stopped]
-        words = words_of(work_precision_figure.draw(read(stopped + lost)))
-        self.assertIn("No point: BLIND on Mesh0 (not converged).", words)
-        self.assertEqual(words.count("Mesh0"), 3)  # title, caption, BLIND's once
 
 
 class ParetoTest(drawn.FiguresTest):
@@ -188,19 +165,6 @@ class ParetoTest(drawn.FiguresTest):
         self.assertEqual({len(line) for line in table}, {8})
         self.assertEqual(table[-1][0], percent(0.1))
         self.assertEqual((table[-1][2], table[-1][5]), ("Mesh3", "Mesh3"))
-
-    def test_each_kind_of_meshes_has_a_front(self) -> None:
-        study = made_up.error_study(["Mesh1"], sweep=False)
-        levels = [made_up.case(f"Mesh0+{kind}{k}", "HYBRID", n_phi=800 * 3**k, adapt_level=k,
-                               time_s=0.01 * 2**k, error_total=0.1 * rate**k)
-                  for kind, rate in (("adapt", 0.3), ("refined", 0.7)) for k in range(4)]
-        rows = read(study + levels)
-        drawing = drawn.plan(rows, "pareto")
-        self.assertEqual(len(study) + len(levels), len(drawing.rows))
-        words = words_of(drawing.figure())
-        self.assertIn("adapted: HYBRID", words)
-        self.assertIn("refined everywhere: HYBRID", words)
-        self.assertNotIn("Mesh0+adapt3: ", words)  # its own error needs no line
 
 
 class ConvergenceTest(drawn.FiguresTest):
