@@ -94,10 +94,9 @@ def paint(figure: Figure) -> tuple[list[Text], object]:
     return painted, canvas.get_renderer()
 
 
-def assert_readable(test: TestCase, figure: Figure, painted: list[Text], renderer: object,
-                    overlap: float = 1) -> None:
-    """Words are large enough, on the sheet and apart, but for so many pixels; those at an angle are
-    passed over."""
+def assert_readable(test: TestCase, figure: Figure, painted: list[Text], renderer: object) -> None:
+    """Words are large enough, on the sheet and apart, but for a pixel; those at an angle are passed
+    over."""
     boxes = [(words, words.get_window_extent(renderer)) for words in painted
              if words.get_rotation() in (0, 90)]
     for words, box in boxes:
@@ -105,4 +104,4 @@ def assert_readable(test: TestCase, figure: Figure, painted: list[Text], rendere
         test.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0 <= box.y0
                         and box.y1 <= figure.bbox.y1, words)
     for (words, box), (other, other_box) in combinations(boxes, 2):
-        test.assertFalse(box.padded(-overlap).overlaps(other_box), f"{words} {other}")
+        test.assertFalse(box.padded(-1).overlaps(other_box), f"{words} {other}")
