@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/records/json.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -35,6 +36,12 @@ class BenchCommand {
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content("out.txt"), content("err.txt")};
   }
+  // Exit code 0.
+  CommandResult expect_ok(const std::string& arguments, const std::string& before = "") const {
+    CommandResult result = run(arguments, before);
+    EXPECT_EQ(result.code, 0) << arguments << ": " << result.err << result.out;
+    return result;
+  }
   // Exit code 2, nothing on standard output, and one line on standard error that has `named` in it,
   // or is `named` where that ends with a newline.
   void expect_refusal(const std::string& arguments, std::string_view named,
@@ -44,7 +51,7 @@ class BenchCommand {
     EXPECT_EQ(result.code, 2);
     EXPECT_EQ(result.out, "");
     EXPECT_TRUE(result.err.starts_with("bench: "));
-    EXPECT_NE(result.err.find(named), std::string::npos) << named;
+    EXPECT_TRUE(contains(result.err, named));
     if (named.ends_with('\n')) {
       EXPECT_EQ(result.err, "bench: " + std::string(named));
     }
