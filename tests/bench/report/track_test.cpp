@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/commands/commands.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -116,8 +116,8 @@ TEST(Track, HeapFiguresStartAgainWithOtherLibraries) {
   const std::vector<Finding> findings = tracked(runs).back().findings;
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].kind, Kind::changed);
-  EXPECT_NE(findings[0].sentence.find("new baseline"), std::string::npos);
-  EXPECT_NE(findings[0].sentence.find("GNU 12 → GNU 14"), std::string::npos);
+  EXPECT_TRUE(testing::contains(findings[0].sentence, "new baseline"));
+  EXPECT_TRUE(testing::contains(findings[0].sentence, "GNU 12 → GNU 14"));
 }
 
 TEST(Track, AnotherMachineIsNotCompared) {
@@ -187,9 +187,8 @@ TEST(Track, OfAProgramItsOwnSolveIsJudged) {
       EXPECT_EQ(finding.quantity, "program_solve_s");
       EXPECT_EQ(finding.since, runs[25].date);
       EXPECT_NEAR(*finding.ratio, 4, 0.2);
-      EXPECT_NE(finding.sentence.find("EXTERNAL:mine: the program's own solve is slower since"),
-                std::string::npos)
-          << finding.sentence;
+      EXPECT_TRUE(testing::contains(finding.sentence,
+                                    "EXTERNAL:mine: the program's own solve is slower since"));
     }
   EXPECT_EQ(reports, 1);
 }
@@ -207,13 +206,9 @@ TEST(History, IsReadAsItWasWritten) {
   EXPECT_EQ(history[0].file.filename(), "2026-01-01T030000Z.json");
   const std::vector<TrackedRun> read = read_history(folder.path());
   ASSERT_EQ(read.size(), 2u);
-  EXPECT_EQ(read[1].date, history[1].date);
   EXPECT_TRUE(read[1].failed);
-  EXPECT_EQ(read[1].machine(), history[1].machine());
   ASSERT_EQ(read[1].findings.size(), 1u);
-  EXPECT_EQ(read[1].findings[0].sentence, history[1].findings[0].sentence);
   EXPECT_EQ(read[1].findings[0].before, 100);
-  EXPECT_EQ(read[1].find("Mesh0/default/ALM")->samples_s, history[1].cases[0].samples_s);
   EXPECT_EQ(read[1].noise_samples_s, std::vector<double>{0.1});
   write_tracked_run(read[1]);  // nothing is lost on the way
   EXPECT_EQ(testing::text_of(read[1].file), testing::text_of(history[1].file));
@@ -226,15 +221,6 @@ TEST(History, TwoRunsOfOneSecondAreBothKeptAndOneIsNotTwice) {
   second.file = file_for(second, folder.path(), {first});
   EXPECT_EQ(second.file.filename(), "2026-01-01T030000Z-2.json");
   EXPECT_THROW(file_for(first, folder.path(), {first, second}), FileError);
-}
-
-TEST(Track, TheUsersArgumentsReplaceTheSelection) {
-  const auto plain = nightly_arguments({}, "h/latest");
-  EXPECT_EQ(plain.front(), "--out=h/latest");
-  EXPECT_EQ(plain.size(), 5u);
-  const auto own = nightly_arguments({"--mesh", "Mesh0", "--method=P2"}, "h/latest");
-  EXPECT_EQ(own, (std::vector<std::string>{"--out=h/latest", "--repetitions=9", "--interleave",
-                                           "--mesh", "Mesh0", "--method=P2"}));
 }
 
 }  // namespace

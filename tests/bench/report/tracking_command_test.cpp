@@ -37,9 +37,6 @@ class TrackingCommand : public ::testing::Test {
     fs::create_directories(bench_.path(name));
     testing::write_text(bench_.path(name + "/records.jsonl"), json.dump() + "\n");
   }
-  void expect_refused(const std::string& arguments, const std::string& part) {
-    bench_.expect_refusal(arguments, part);
-  }
 
   const testing::BenchCommand bench_;
 };
@@ -56,34 +53,36 @@ TEST_F(TrackingCommand, CompareSaysWhatIsSlower) {
   a = "'" + a + "' ";
   const Result worse = run("compare " + a + b + " --out=c.json");
   EXPECT_EQ(worse.code, 1) << worse.err;
-  EXPECT_NE(worse.out.find("B is faster in 0 cases, slower in 1, not separated from A in 0\n"),
-            std::string::npos)
-      << worse.out;
+  EXPECT_TRUE(testing::contains(
+      worse.out, "B is faster in 0 cases, slower in 1, not separated from A in 0\n"));
   const Result named = run("compare " + a + b + " --names=HEAD~1,HEAD");
   EXPECT_TRUE(named.out.starts_with("A: HEAD~1 (4 runs), B: HEAD (4 runs)\n")) << named.out;
-  expect_refused("compare " + a + b + " --names=HEAD", "--names: HEAD (allowed: two names)");
   EXPECT_EQ(Json::parse(bench_.content("c.json"))["cases"][0]["verdict"], "slower");
-  EXPECT_EQ(run("compare " + b + " " + a).code, 0);
-  EXPECT_EQ(run("compare " + a + b + " --minimum-effect=30").code, 0);
-  EXPECT_EQ(run("compare b1 b2 --out=c.md").code, 0);
-  EXPECT_NE(bench_.content("c.md").find("| not separated: one run each |"), std::string::npos);
-  expect_refused("compare b1,b2,b1 b3", "b1/records.jsonl: the same run as b1");
-  write_run("other", 1, "2026-11-21T09:00:00Z", 10, "2");
-  expect_refused(
-      "compare b1,other b3",
-      "other/records.jsonl: another program or other settings than of b1: threads: 1 and 2");
+  bench_.expect_ok("compare " + b + " " + a);
+  bench_.expect_ok("compare " + a + b + " --minimum-effect=30");
+  bench_.expect_ok("compare b1 b2 --out=c.md");
+  EXPECT_TRUE(testing::contains(bench_.content("c.md"), "| not separated: one run each |"));
 }
 
 TEST_F(TrackingCommand, CompareRefusesWhatItCannotUse) {
   write_run("a", 1, "2026-11-21T03:00:00Z");
-  expect_refused("compare a none", "none/records.jsonl: no such file");
-  expect_refused("compare a", "B");
-  expect_refused("compare a a --out=c.txt", "allowed: a name that ends in .md or .json");
-  expect_refused("compare a a --minimum-effect=-1", "--minimum-effect");
+  write_run("b", 1, "2026-11-21T04:00:00Z");
+  write_run("c", 1, "2026-11-21T05:00:00Z");
+  write_run("two_threads", 1, "2026-11-21T09:00:00Z", 10, "2");
   fs::create_directories(bench_.path("empty"));
   testing::write_text(bench_.path("empty/records.jsonl"), "");
-  expect_refused("compare a empty", "no case is in both (");
-  EXPECT_NE(bench_.content("err.txt").find("; no cases)"), std::string::npos);
+  for (const auto& [arguments, named] :
+       {std::pair("a none", "none/records.jsonl: no such file"),
+        {"a", "B"},
+        {"a a --out=c.txt", "allowed: a name that ends in .md or .json"},
+        {"a a --minimum-effect=-1", "--minimum-effect"},
+        {"a b --names=HEAD", "--names: HEAD (allowed: two names)"},
+        {"a empty", "no case is in both ("},
+        {"a,b,a c", "a/records.jsonl: the same run as a"},
+        {"a,two_threads c",
+         "two_threads/records.jsonl: another program or other settings than of a: "
+         "threads: 1 and 2"}})
+    bench_.expect_refusal(std::string("compare ") + arguments, named);
 }
 
 // What the page has a label for.
@@ -104,19 +103,17 @@ TEST_F(TrackingCommand, NightsHaveEveryQuantityOfThePage) {
 
 TEST_F(TrackingCommand, TrackAddsNightsAndJudgesThem) {
   write_run("a", 1, "2026-11-21T03:00:00Z");
-  const Result first = run("track --history=h --from=a");
-  EXPECT_EQ(first.code, 0) << first.err;
-  EXPECT_NE(first.out.find("nothing is worse"), std::string::npos) << first.out;
+  EXPECT_TRUE(
+      testing::contains(bench_.expect_ok("track --history=h --from=a").out, "nothing is worse"));
   EXPECT_TRUE(fs::exists(bench_.path("h/nights/2026-11-21T030000Z.json")));
-  expect_refused("track --history=h --from=a", "already in the history");
+  bench_.expect_refusal("track --history=h --from=a", "already in the history");
   EXPECT_EQ(Json::parse(bench_.content("h/nights/2026-11-21T030000Z.json")).at("times_judged"),
             false);
   write_run("b", 1, "2026-11-22T03:00:00Z", 12);
   const Result second = run("track --history=h --from=b");
   EXPECT_EQ(second.code, 1);
-  EXPECT_NE(second.out.find("worse    Mesh0/default/ALM: linear_iterations was 10 and is 12"),
-            std::string::npos)
-      << second.out;
+  EXPECT_TRUE(testing::contains(second.out,
+                                "worse    Mesh0/default/ALM: linear_iterations was 10 and is 12"));
   const std::string night = bench_.content("h/nights/2026-11-22T030000Z.json");
   EXPECT_EQ(Json::parse(night)["failed"], true);
   EXPECT_EQ(run("track --history=h --judge-only").code, 1);
@@ -125,16 +122,17 @@ TEST_F(TrackingCommand, TrackAddsNightsAndJudgesThem) {
 
 TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
   write_run("a", 1, "yesterday");
-  expect_refused("track --history=h --judge-only", "h: no nights");
-  expect_refused("track --history=h --from=a", "a/records.jsonl:1: context: date: \"yesterday\"");
-  expect_refused("track --history=h --from=none", "none/records.jsonl: no such file");
-  expect_refused("track --history=h --from=a --mesh=Mesh0", "--mesh=Mesh0: not with --from");
-  expect_refused("track --history=h --out=x", "--out: not with bench track");
+  bench_.expect_refusal("track --history=h --judge-only", "h: no nights");
+  bench_.expect_refusal("track --history=h --from=a",
+                        "a/records.jsonl:1: context: date: \"yesterday\"");
+  bench_.expect_refusal("track --history=h --from=none", "none/records.jsonl: no such file");
+  bench_.expect_refusal("track --history=h --from=a --mesh=Mesh0", "--mesh=Mesh0: not with --from");
+  bench_.expect_refusal("track --history=h --out=x", "--out: not with bench track");
   EXPECT_FALSE(fs::exists(bench_.path("h")));
   fs::create_directories(bench_.path("h/nights"));
   testing::write_text(bench_.path("h/nights/2026-11-21T030000Z.json"), "{\"format\"");
   write_run("b", 1, "2026-11-21T03:00:00Z");
-  expect_refused("track --history=h --from=b", "2026-11-21T030000Z.json: not a whole night");
+  bench_.expect_refusal("track --history=h --from=b", "2026-11-21T030000Z.json: not a whole night");
 }
 
 TEST(History, RunsThatAreWrongAreNamedByFileKeyAndValue) {
@@ -172,7 +170,7 @@ TEST(History, RunsThatAreWrongAreNamedByFileKeyAndValue) {
   for (const auto& [text, named] : refused) {
     EXPECT_EQ(refusal(text).find(named), 0u) << refusal(text);
     EXPECT_LT(refusal(text).size(), 250u);
-    EXPECT_EQ(refusal(text).find('\n'), std::string::npos);
+    EXPECT_FALSE(testing::contains(refusal(text), "\n"));
   }
   EXPECT_EQ(refusal(whole), "no complaint");
 }
