@@ -5,7 +5,6 @@
 #include <map>
 
 #include "tests/support/other_user.hpp"
-#include "tests/support/sanitized.hpp"
 
 namespace airybench::permissions_test {
 namespace {
@@ -26,6 +25,7 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
 }
 
 struct Obstacle {
+  std::size_t first;  // of the commands that meet it
   const char* made_by;
   const char* message;
 };
@@ -46,12 +46,12 @@ TEST_P(Refusal, LeavesTheFolderAsItIs) {
       "bin/bench --mesh=Mesh0 --method=P2 --repetitions=1 --append ",
       hybrid + "--adapt=90% ",
       "bin/bench advise --mesh=Mesh0 --error=50% "};
-  int turn = 0;
-  for (const std::string& command : commands) {
-    if (testing::left_out(turn++)) continue;
+  // Every obstacle meets three of them, every command at least three obstacles.
+  for (const std::size_t ahead : {0, 1, 3}) {
+    const std::string& command = commands[(GetParam().first + ahead) % commands.size()];
     EXPECT_EQ(run_as_user(bench, command + "--out=o"), 2) << command;
     const std::string err = bench.content("err.txt");
-    EXPECT_NE(err.find(GetParam().message), err.npos) << command << err;
+    EXPECT_TRUE(testing::contains(err, GetParam().message)) << command;
     EXPECT_EQ(std::ranges::count(err, '\n'), 1) << command << err;
     EXPECT_EQ(files_in(bench.path("o")), before) << command;
   }
@@ -60,20 +60,16 @@ TEST_P(Refusal, LeavesTheFolderAsItIs) {
 INSTANTIATE_TEST_SUITE_P(
     Of, Refusal,
     ::testing::Values(
-        Obstacle{"chmod 444 o/records.jsonl",
-                 "bench: o/records.jsonl: cannot be written: Permission denied\n"},
-        Obstacle{"chmod 444 o/results.csv",
-                 "bench: o/results.csv: cannot be written: Permission denied\n"},
-        Obstacle{"chmod 555 o", "bench: o/records.jsonl: cannot be written: Permission denied\n"},
-        Obstacle{"chmod 644 o", "bench: o/records.jsonl: cannot be written: Permission denied\n"},
-        Obstacle{"rm o/results.json; mkdir o/results.json",
-                 "bench: o/results.json: is no regular file (allowed: one, or a name that is not "
-                 "there)\n"},
-        Obstacle{"mv o/records.jsonl o/mine; mkfifo o/records.jsonl",
-                 "bench: o/records.jsonl: is no regular file (allowed: one, or a name that is not "
-                 "there)\n"},
-        Obstacle{"mv o/records.jsonl o/mine; ln -s nowhere/there o/records.jsonl",
-                 "bench: o/records.jsonl: cannot be written: No such file or directory\n"}));
+        Obstacle{0, "chmod 444 o/records.jsonl", "o/records.jsonl: cannot be written: Permission"},
+        Obstacle{1, "chmod 444 o/results.csv", "o/results.csv: cannot be written: Permission"},
+        Obstacle{2, "chmod 555 o", "o/records.jsonl: cannot be written: Permission"},
+        Obstacle{3, "chmod 644 o", "o/records.jsonl: cannot be written: Permission"},
+        Obstacle{4, "rm o/results.json; mkdir o/results.json",
+                 "o/results.json: is no regular file"},
+        Obstacle{5, "mv o/records.jsonl o/mine; mkfifo o/records.jsonl",
+                 "o/records.jsonl: is no regular file"},
+        Obstacle{6, "mv o/records.jsonl o/mine; ln -s nowhere/there o/records.jsonl",
+                 "o/records.jsonl: cannot be written: No such file or directory"}));
 
 TEST(Resume, OfAReadOnlyFolderRefusesOnlyWhatWouldWrite) {
   const BenchCommand bench;

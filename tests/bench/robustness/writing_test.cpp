@@ -7,6 +7,7 @@
 #include "support/errors.hpp"
 #include "support/folder_lock.hpp"
 #include "tests/support/background_run.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -26,12 +27,7 @@ const std::string quick = "--mesh=Mesh0 --method=HYBRID --repetitions=1 ";
 const std::string two = "--mesh=Mesh0 --method=HYBRID,P2 --repetitions=1 ";
 
 std::string why_refused(const fs::path& file) {
-  try {
-    write_file_atomically(file, "new");
-  } catch (const FileError& error) {
-    return error.what();
-  }
-  return "not refused";
+  return testing::complaint_of<FileError>([&] { write_file_atomically(file, "new"); });
 }
 
 std::size_t entries_of(const fs::path& folder) {
@@ -46,8 +42,7 @@ TEST(WriteFile, RefusesWhatIsNoRegularFile) {
   fs::create_symlink(fifo, link);
   fs::create_symlink("/dev/null", device);
   for (const fs::path& file : {fifo, link, device, folder.path()}) {
-    EXPECT_EQ(why_refused(file),
-              file.string() + ": is no regular file (allowed: one, or a name that is not there)");
+    EXPECT_TRUE(why_refused(file).starts_with(file.string() + ": is no regular file (")) << file;
     EXPECT_FALSE(fs::is_regular_file(file)) << file;
   }
   EXPECT_EQ(entries_of(folder.path()), 3u);
@@ -67,9 +62,8 @@ TEST(WriteFile, GoesWhereLinksPoint) {
   EXPECT_EQ(text_of(folder / "there/new"), "made");
   for (const char* link : {"to_old", "to_new", "to_link"})
     EXPECT_TRUE(fs::is_symlink(folder / link)) << link;
-  EXPECT_NE(why_refused(folder / "round").find("cannot be written: Too many levels"),
-            std::string::npos)
-      << why_refused(folder / "round");
+  EXPECT_TRUE(
+      testing::contains(why_refused(folder / "round"), "cannot be written: Too many levels"));
 }
 
 TEST(WriteFile, KeepsPermissionsAndAsksForThem) {
@@ -190,53 +184,40 @@ TEST(Records, DeletedDuringARunAreMissed) {
     const int status = run.end(0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 2);
-    EXPECT_NE(bench.content("bg_err.txt")
-                  .find("o/records.jsonl: was removed or replaced while the run wrote it"),
-              std::string::npos)
-        << bench.content("bg_err.txt");
+    EXPECT_TRUE(
+        testing::contains(bench.content("bg_err.txt"),
+                          "o/records.jsonl: was removed or replaced while the run wrote it"));
   }
 }
 
+// What is refused: Records.ThatAreCorruptAreRefusedByEveryCommand.
 TEST(Merge, ValidatesAllBeforeItWrites) {
   const BenchCommand bench;
-  ASSERT_EQ(bench.run(two + "--out=whole").code, 0);
-  ASSERT_EQ(bench.run(two + "--out=bad").code, 0);
+  bench.expect_ok(two + "--out=whole");
+  bench.expect_ok(two + "--out=bad");
   const std::string before = bench.results("whole");
-  for (const auto& [key, value] : {std::pair<const char*, Json>("status", ""),
-                                   {"grid", Json::array({Json::object()})},
-                                   {"memory_by_owner", 3},
-                                   {"stages_left_out", "none"},
-                                   {"case_number", -1},
-                                   {"samples_s", Json::array({"long"})},
-                                   {"context", Json::array()}}) {
-    std::vector<Json> records = bench.records("whole");
-    records[1][key] = value;
-    write_text(bench.path("bad/records.jsonl"),
-               records[0].dump() + "\n" + records[1].dump() + "\n");
-    bench.expect_refusal("merge bad --out=whole",
-                         std::string("bad/records.jsonl:2: ") + key + ": ");
-    EXPECT_EQ(bench.results("whole"), before) << key;
-  }
+  std::vector<Json> records = bench.records("whole");
+  records[1]["case_number"] = -1;
+  write_text(bench.path("bad/records.jsonl"), records[0].dump() + "\n" + records[1].dump() + "\n");
+  bench.expect_refusal("merge bad --out=whole", "bad/records.jsonl:2: case_number: ");
+  EXPECT_EQ(bench.results("whole"), before);
 }
 
 // What a record says does not become a path.
 TEST(Replay, WritesNothingWhereASceneNamePoints) {
   const BenchCommand bench;
   write_text(bench.path("flat.json"), R"({"crown_radius_mm": null})");
-  ASSERT_EQ(bench.run(quick + "--scene=flat.json --out=o").code, 0);
-  const std::string good = bench.records()[0].dump();
+  bench.expect_ok(quick + "--scene=flat.json --out=o");
+  Json record = bench.record();
+  record["context"]["program_sha256"] = "0";
+  fs::create_directories(bench.path("c"));
   for (const std::string& scene :
        {std::string("../evil"), std::string("a/b"), bench.path("evil").string()}) {
-    Json record = Json::parse(good);
     record["scene"] = scene;
-    record["context"]["program_sha256"] = "0";
-    fs::create_directories(bench.path("c"));
     write_text(bench.path("c/records.jsonl"), record.dump() + "\n");
     for (const char* more : {"", " --other-program"}) {
-      const CommandResult result = bench.run(std::string("replay c:1 --out=again/here") + more);
-      EXPECT_EQ(result.code, 2) << scene << result.err;
+      EXPECT_EQ(bench.run(std::string("replay c:1 --out=again/here") + more).code, 2) << scene;
       EXPECT_FALSE(fs::exists(bench.path("evil.json")));
-      EXPECT_FALSE(fs::exists(bench.path("again/evil.json")));
       EXPECT_FALSE(fs::exists(bench.path("again"))) << scene;
     }
   }
@@ -244,15 +225,13 @@ TEST(Replay, WritesNothingWhereASceneNamePoints) {
 
 TEST(Fields, OfTwoCasesAreTwoFiles) {
   const BenchCommand bench;
-  fs::copy_file(testing::mesh_file("Mesh0"), bench.path("M.msh"));
-  fs::copy_file(testing::mesh_file("Mesh0"), bench.path("M-x.msh"));
+  for (const char* mesh : {"M.msh", "M-x.msh"})
+    fs::copy_file(testing::mesh_file("Mesh0"), bench.path(mesh));
   write_text(bench.path("d.json"), "{}");
   write_text(bench.path("x-d.json"), R"({"friction": 0})");
-  ASSERT_EQ(bench
-                .run("--mesh=./M.msh,./M-x.msh --scene=d.json,x-d.json --method=HYBRID "
-                     "--repetitions=1 --fields --out=o")
-                .code,
-            0);
+  bench.expect_ok(
+      "--mesh=./M.msh,./M-x.msh --scene=d.json,x-d.json --method=HYBRID --repetitions=1 --fields "
+      "--out=o");
   EXPECT_EQ(entries_of(bench.path("o/fields")), 4u * 9u);
 }
 
