@@ -110,9 +110,8 @@ TEST_F(ExternalCommand, EdgeDisplacementsAreJudgedAsHybrids) {
       EXPECT_LT(r["error_force"], 1e-10);
     }
     EXPECT_EQ(records.at("short")["status"], "breakdown");
-    EXPECT_NE(records.at("short")["status_reason"].get<std::string>().find("shape (359, 4)"),
-              std::string::npos)
-        << records.at("short")["status_reason"];
+    EXPECT_TRUE(testing::contains(records.at("short")["status_reason"].get<std::string>(),
+                                  "shape (359, 4)"));
   }
 }
 
@@ -189,51 +188,37 @@ TEST_F(ExternalCommand, FoldersOfAllKinds) {
   }
 }
 
-TEST_F(ExternalCommand, EndlessOutputIsEnded) {
-  declare("one", "condensed", "exec yes");
-  const auto result = bench_.run("--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o",
-                                 "ulimit -f 20000; ");  // sooner than at our own limit
-  EXPECT_EQ(result.code, 1);
-  const Json record = bench_.records().at(0);
-  EXPECT_EQ(record["status"], "crashed");
-  const std::string reason = record["status_reason"];
-  EXPECT_NE(reason.find("one was ended by SIGXFSZ: a file that it wrote became too large: y"),
-            reason.npos)
-      << reason;
-}
-
-TEST_F(ExternalCommand, OtherComponentsAreSkipped) {
-  declare("space", "condensed", "exec yes", {{"components", {3}}});
-  EXPECT_EQ(bench_.run("--external=space.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o").code, 0);
-  EXPECT_EQ(bench_.records()[0]["status"], "skipped");
-  EXPECT_EQ(bench_.records()[0]["status_reason"],
-            "2 components per contact (allowed by the program: 3)");
-}
-
-TEST_F(ExternalCommand, WithoutAFolderForFilesTheMachineIsAtFault) {
+TEST_F(ExternalCommand, WhatIsNotItsAnswerHasAStatusOfItsOwn) {
   write_right();
-  declare("condensed", "condensed", "cp right/* $2");
-  const auto result =
-      bench_.run("--external=condensed.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o",
-                 "export TMPDIR=/none; ");
-  EXPECT_EQ(result.code, 1);
-  EXPECT_EQ(bench_.records().at(0)["status"], "machine_fault");
-  EXPECT_EQ(bench_.records().at(0)["status_reason"],
-            "TMPDIR: /none: no folder can be made there: No such file or directory");
+  const std::string endless = "exec yes", right = "cp right/* $2";
+  declare("endless", "condensed", endless);
+  declare("right", "condensed", right);
+  declare("space", "condensed", endless, {{"components", {3}}});
+  for (const auto& [name, before, status, reason] :
+       {std::array{"endless", "ulimit -f 20000; ",  // sooner than at our own limit
+                   "crashed",
+                   "endless was ended by SIGXFSZ: a file that it wrote became too large: y"},
+        {"right", "export TMPDIR=/none; ", "machine_fault", "TMPDIR: /none: no folder can be made"},
+        {"space", "", "skipped", "2 components per contact (allowed by the program: 3)"}}) {
+    const std::string own = name;
+    bench_.run("--external=" + own + ".json --method='EXTERNAL:*' --mesh=Mesh0 --out=of_" + own,
+               before);
+    const Json record = bench_.record("of_" + own);
+    EXPECT_EQ(record["status"], status) << name;
+    EXPECT_TRUE(testing::contains(record["status_reason"].get<std::string>(), reason));
+  }
 }
 
 TEST_F(ExternalCommand, ByDefaultItIsComparedWithHybridAndOnOnesOwnBodyWithP2) {
   write_right();
   declare("airy", "airy", "cp right/* $2");
   std::filesystem::copy_file(testing::mesh_file("Mesh0"), bench_.path("part.msh"));
-  const std::string options = " --external=airy.json --dry-run";
-  for (const auto& [mesh, cases] : {std::pair("Mesh0", 2), std::pair("part.msh", 3)}) {
-    const auto plan = bench_.run(std::string("--mesh=") + mesh + options);
-    ASSERT_EQ(plan.code, 0) << plan.err;
-    EXPECT_NE(plan.out.find("/HYBRID "), std::string::npos) << plan.out;
-    EXPECT_NE(plan.out.find("/EXTERNAL:airy "), std::string::npos) << plan.out;
-    EXPECT_EQ(plan.out.find("/P2 ") != std::string::npos, cases == 3) << plan.out;
-    EXPECT_EQ(plan.out.find("3STEPD"), std::string::npos) << plan.out;
+  for (const std::string mesh : {"Mesh0", "part.msh"}) {
+    const auto plan = bench_.expect_ok("--external=airy.json --dry-run --mesh=" + mesh);
+    EXPECT_TRUE(testing::contains(plan.out, "/HYBRID "));
+    EXPECT_TRUE(testing::contains(plan.out, "/EXTERNAL:airy "));
+    EXPECT_EQ(plan.out.find("/P2 ") != std::string::npos, mesh == "part.msh") << plan.out;
+    EXPECT_FALSE(testing::contains(plan.out, "3STEPD"));
   }
 }
 
@@ -241,12 +226,9 @@ TEST_F(ExternalCommand, ItIsListedAndReplayRefusesIt) {
   write_right();
   declare_honest();
   records_of("", 0);
-  EXPECT_NE(bench_.run("--list --external=airy.json").out.find("EXTERNAL:airy"), std::string::npos);
-  const auto result = bench_.run("replay o:Mesh0/default/EXTERNAL:airy");
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err,
-            "bench: o:Mesh0/default/EXTERNAL:airy: EXTERNAL:airy is another program (allowed: "
-            "bench's own methods)\n");
+  EXPECT_TRUE(testing::contains(bench_.run("--list --external=airy.json").out, "EXTERNAL:airy"));
+  bench_.expect_refusal("replay o:Mesh0/default/EXTERNAL:airy",
+                        "o:Mesh0/default/EXTERNAL:airy: EXTERNAL:airy is another program (");
 }
 
 TEST_F(ExternalCommand, ResumeTakesNoRecordsOfAnotherVersion) {
@@ -256,9 +238,7 @@ TEST_F(ExternalCommand, ResumeTakesNoRecordsOfAnotherVersion) {
   EXPECT_EQ(records_of("--resume", 0).size(), 1u);
   declare("one", "condensed", "cp right/* $2", {{"version", {"echo", "3"}}});
   records_of("--resume", 2);
-  EXPECT_EQ(
-      bench_.content("err.txt"),
-      "bench: o/records.jsonl:1: program: another than now, for Mesh0/default/EXTERNAL:one\n");
+  EXPECT_TRUE(testing::contains(bench_.content("err.txt"), "o/records.jsonl:1: program: another"));
 }
 
 TEST_F(ExternalCommand, AnInterruptedRunLeavesNothing) {
@@ -297,13 +277,13 @@ TEST_F(ExternalCommand, ASuspendedRunIsMeasuredAgain) {
           "echo $PPID >> runs; while ! test -e go; do sleep 0.05; done; cp right/* $2");
   testing::BackgroundRun run(
       bench_,
-      "--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --repetitions=1 --timeout=3 --out=o");
+      "--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --repetitions=1 --timeout=2 --out=o");
   testing::wait_for([&] { return !bench_.content("runs").empty(); });
   std::vector<pid_t> all = {run.pid()};
   while (all.size() < 4) all.push_back(testing::children_of(all.back()).at(0));
   EXPECT_EQ(all.back(), std::stoi(bench_.content("runs")));
   for (const pid_t process : all) kill(process, SIGSTOP);
-  std::this_thread::sleep_for(std::chrono::seconds(8));
+  std::this_thread::sleep_for(std::chrono::seconds(5));
   write("go", "");
   for (const pid_t process : all) kill(process, SIGCONT);
   const int status = run.end(0);
@@ -326,11 +306,10 @@ TEST_F(ExternalCommand, EveryValueOfAParameterIsAMethod) {
   EXPECT_EQ(records.at("many")["status"], "ok");
   for (const std::string value : {"2.5", "1234567"})
     EXPECT_EQ(records.at("many:stiffness=" + value)["status_reason"], value);
-  const auto chosen = bench_.run(
+  const auto chosen = bench_.expect_ok(
       "--external=many.json --method=EXTERNAL:many:stiffness=2.5 --mesh=Mesh0 --dry-run");
-  EXPECT_EQ(chosen.code, 0) << chosen.err;
-  EXPECT_NE(chosen.out.find("EXTERNAL:many:stiffness=2.5"), chosen.out.npos) << chosen.out;
-  EXPECT_EQ(chosen.out.find("1234567"), chosen.out.npos) << chosen.out;
+  EXPECT_TRUE(testing::contains(chosen.out, "EXTERNAL:many:stiffness=2.5"));
+  EXPECT_FALSE(testing::contains(chosen.out, "1234567"));
 }
 
 }  // namespace
