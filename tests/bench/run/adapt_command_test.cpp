@@ -18,18 +18,23 @@ namespace {
 
 class AdaptCommand : public ::testing::Test {
  protected:
-  int bench(const std::string& arguments) const { return bench_.run(arguments).code; }
+  // The records of this run on Mesh0, in the folder.
+  std::vector<Json> adapted(const std::string& arguments, const std::string& folder = "o",
+                            int code = 0) const {
+    const testing::CommandResult result =
+        bench_.run("--mesh=Mesh0 --repetitions=1 --out=" + folder + " " + arguments);
+    EXPECT_EQ(result.code, code) << arguments << ": " << result.err;
+    return bench_.records(folder);
+  }
   std::string complaint() const { return bench_.content("err.txt"); }
   void write(const std::string& name, const std::string& text) const {
-    std::ofstream(bench_.path(name)) << text;
+    testing::write_text(bench_.path(name), text);
   }
   const testing::BenchCommand bench_;
 };
 
 TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID,3STEPD,P2 --adapt=2.5% --repetitions=1 --out=o"), 0)
-      << complaint();
-  const auto records = bench_.records();
+  const auto records = adapted("--method=HYBRID,3STEPD,P2 --adapt=2.5%");
   ASSERT_GE(records.size(), 6u);
   double time_s = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -53,52 +58,43 @@ TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
   EXPECT_LE(last["error_discretisation"].get<double>(), 0.025);
 
   // A level is a mesh as any other, and its record can be run again.
-  const std::string mesh = last["mesh_file"], level = last["mesh"];
-  ASSERT_EQ(bench("--mesh='o/" + mesh +
-                  "' --scene=o/meshes/default/Mesh0/default.json --method=HYBRID "
-                  "--repetitions=1 --out=again"),
-            0)
-      << complaint();
-  EXPECT_EQ(bench_.records("again")[0]["strain_energy_Nmm"], last["strain_energy_Nmm"]);
-  EXPECT_EQ(bench("replay 'o:" + level + "/default/HYBRID' --out=replayed"), 0) << complaint();
+  bench_.expect_ok("--mesh='o/" + last["mesh_file"].get<std::string>() +
+                   "' --scene=o/meshes/default/Mesh0/default.json --method=HYBRID "
+                   "--repetitions=1 --out=again");
+  EXPECT_EQ(bench_.record("again")["strain_energy_Nmm"], last["strain_energy_Nmm"]);
+  bench_.expect_ok("replay 'o:" + last["mesh"].get<std::string>() +
+                   "/default/HYBRID' --out=replayed");
 }
 
 TEST_F(AdaptCommand, DegreesHaveLevelsOfTheirOwnThatCanBeJoined) {
-  const std::string adapt = "--mesh=Mesh0 --adapt=1%,levels=last --repetitions=1 ";
   for (const auto& [degree, method, folder] : std::vector<std::array<std::string, 3>>{
            {"1", "HYBRID", "one"}, {"2", "HYBRID:k=2", "two"}, {"auto", "HYBRID:k=2", "same"}}) {
-    ASSERT_EQ(bench(adapt + "--degree=" + degree + " --out=" + folder), 0) << complaint();
-    const auto records = bench_.records(folder);
+    const auto records = adapted("--adapt=1%,levels=last --degree=" + degree, folder);
     ASSERT_EQ(records.size(), 1u);
     EXPECT_EQ(records[0]["method"], method);
     EXPECT_EQ(records[0]["degree"], degree == "1" ? 1 : 2);
     EXPECT_LE(records[0]["error_total"].get<double>(), 0.01);
   }
-  EXPECT_LT(bench_.records("two")[0]["n_phi"], bench_.records("one")[0]["n_phi"]);
-  ASSERT_EQ(bench("merge --runs one two --out=both"), 0) << complaint();
-  EXPECT_EQ(bench("--mesh=Mesh0 --adapt=0.05% --degree=auto --dry-run --out=o"), 0) << complaint();
-  EXPECT_NE(bench_.content("out.txt").find("HYBRID:k=3"), std::string::npos);
-  const auto number = [](int degree) { return std::to_string(degree); };
-  for (const std::string& wrong :
-       {number(0), number(highest_degree + 1), number(22), std::string("two")}) {
-    EXPECT_EQ(bench("--mesh=Mesh0 --degree=" + wrong), 2);
-    EXPECT_NE(complaint().find("allowed: 1 to " + number(highest_degree) + ", auto"),
-              std::string::npos)
-        << complaint();
-  }
+  EXPECT_LT(bench_.record("two")["n_phi"], bench_.record("one")["n_phi"]);
+  bench_.expect_ok("merge --runs one two --out=both");
+  EXPECT_TRUE(testing::contains(
+      bench_.expect_ok("--mesh=Mesh0 --adapt=0.05% --degree=auto --dry-run --out=o").out,
+      "HYBRID:k=3"));
+  for (const std::string& wrong : {std::string("0"), std::to_string(highest_degree + 1),
+                                   std::string("22"), std::string("two")})
+    bench_.expect_refusal("--mesh=Mesh0 --degree=" + wrong,
+                          fmt::format("allowed: 1 to {}, auto", highest_degree));
 }
 
 // The degree that was asked for is the one that is measured; what misses the goal is named.
 TEST_F(AdaptCommand, CasesAreOfTheDegreeAndMeetTheGoalOrAreNamed) {
-  const std::string adapt = "--mesh=Mesh0 --adapt=1%,levels=last --degree=2 --repetitions=1 ";
-  ASSERT_EQ(bench(adapt + "--method=HYBRID,HYBRID:CHOLMOD --out=o"), 0) << complaint();
-  for (const Json& record : bench_.records()) {
+  const std::string adapt = "--adapt=1%,levels=last --degree=2 ";
+  for (const Json& record : adapted(adapt + "--method=HYBRID,HYBRID:CHOLMOD")) {
     EXPECT_EQ(record["degree"], 2) << record["method"];
     EXPECT_EQ(record["adapt_goal"], 0.01);
     EXPECT_LE(record["error_total"].get<double>(), 0.01);
   }
-  ASSERT_EQ(bench(adapt + "--method=HYBRID:k=1,HYBRID --out=p"), 1) << complaint();
-  const auto records = bench_.records("p");
+  const auto records = adapted(adapt + "--method=HYBRID:k=1,HYBRID", "p", 1);
   ASSERT_EQ(records.size(), 2u);
   for (const Json& record : records) {
     EXPECT_EQ(record["status"], "ok");
@@ -108,10 +104,8 @@ TEST_F(AdaptCommand, CasesAreOfTheDegreeAndMeetTheGoalOrAreNamed) {
               record["degree"] == 1 && record["error_total"] > 0.01)
         << name;
   }
-  EXPECT_EQ(bench("--mesh=Mesh0 --adapt=1%,by=HYBRID:k=3 --degree=2"), 2);
-  EXPECT_NE(complaint().find("HYBRID:k=3 (allowed: one of both, or by=HYBRID:k=2)"),
-            std::string::npos)
-      << complaint();
+  bench_.expect_refusal("--mesh=Mesh0 --adapt=1%,by=HYBRID:k=3 --degree=2",
+                        "HYBRID:k=3 (allowed: one of both, or by=HYBRID:k=2)");
 }
 
 // Of a path the loop's error, the record's and that of the exit code are one: the largest of its
@@ -119,88 +113,70 @@ TEST_F(AdaptCommand, CasesAreOfTheDegreeAndMeetTheGoalOrAreNamed) {
 TEST_F(AdaptCommand, APathIsAdaptedToTheLargestErrorOfItsSteps) {
   write("s.json", R"({"load_steps": [{"displacement_mm": [0.005, 0]}],
                       "displacement_mm": [0.02, 0.02]})");
-  ASSERT_EQ(bench("--mesh=Mesh0 --scene=s.json --method=HYBRID --adapt=3% --repetitions=1 --out=o"),
-            0)
-      << complaint();
-  for (const Json& record : bench_.records()) {
+  const auto records = adapted("--scene=s.json --method=HYBRID --adapt=3%");
+  for (const Json& record : records) {
     double largest = 0;
     for (const Json& step : record["steps"])
       largest = std::max(largest, step["error_discretisation"].get<double>());
     EXPECT_EQ(record["error_discretisation"], largest);
     EXPECT_NEAR(record["error_total"].get<double>(), largest, 1e-6);
-    EXPECT_NE(complaint().find(fmt::format("total error {:.3g} %", 100 * largest)),
-              std::string::npos)
-        << largest << "\n"
-        << complaint();
+    EXPECT_TRUE(testing::contains(complaint(), fmt::format("total error {:.3g} %", 100 * largest)));
   }
-  const Json last = bench_.records().back();
-  EXPECT_EQ(last["adapt_goal"], 0.03);
-  EXPECT_LE(last["error_total"].get<double>(), 0.03);
+  EXPECT_EQ(records.back()["adapt_goal"], 0.03);
+  EXPECT_LE(records.back()["error_total"].get<double>(), 0.03);
 }
 
 TEST_F(AdaptCommand, AppendingKeepsTheMeshesOfEarlierRecords) {
   const std::string run =
       "--mesh=Mesh0 --scene=s.json --method=HYBRID --repetitions=1 --out=o --adapt=";
-  const auto write_scene = [&](const std::string& friction) {
-    write("s.json", "{\"friction\": " + friction + "}");
-  };
-  write_scene("0.3");
-  ASSERT_EQ(bench(run + "1000"), 0) << complaint();
+  write("s.json", R"({"friction": 0.3})");
+  bench_.expect_ok(run + "1000");
   const auto before = bench_.records();
   const std::string scene = bench_.content("o/meshes/s/Mesh0/s.json");
   for (const auto& [friction, other] : std::vector<std::array<std::string, 2>>{
            {"0.3", "900 --append"}, {"0.3", "900 --resume"}, {"0.1", "1000 --append"}}) {
-    write_scene(friction);
-    EXPECT_EQ(bench(run + other), 2);
-    EXPECT_NE(complaint().find(": the records of that folder have another file of this name"),
-              std::string::npos)
-        << complaint();
+    write("s.json", "{\"friction\": " + friction + "}");
+    EXPECT_EQ(bench_.run(run + other).code, 2);
+    EXPECT_TRUE(testing::contains(complaint(),
+                                  ": the records of that folder have another file of this name"));
     EXPECT_EQ(bench_.records(), before);
     EXPECT_EQ(bench_.content("o/meshes/s/Mesh0/s.json"), scene);
   }
   for (const Json& record : before)
     EXPECT_EQ(sha256_of_file(bench_.path("o") / record["mesh_file"].get<std::string>()),
               record["mesh_sha256"].get<std::string>());
-  write_scene("0.3");
-  EXPECT_EQ(bench("--mesh=Mesh0 --scene=s.json --method=P2 --repetitions=1 --out=o --adapt=1000 "
-                  "--append"),
-            0)
-      << complaint();
+  write("s.json", R"({"friction": 0.3})");
+  bench_.expect_ok(
+      "--mesh=Mesh0 --scene=s.json --method=P2 --repetitions=1 --out=o --adapt=1000 --append");
 }
 
 TEST_F(AdaptCommand, MergedRunsHaveTheirMeshes) {
   namespace fs = std::filesystem;
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=1000 --repetitions=1 --out=o"), 0)
-      << complaint();
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=P2 --repetitions=1 --out=p"), 0) << complaint();
-  ASSERT_EQ(bench("merge --runs o p --out=deep/whole"), 0) << complaint();
-  const auto of_run = bench_.records("o"), of_whole = bench_.records("deep/whole");
+  const auto of_run = adapted("--method=HYBRID --adapt=1000");
+  bench_.expect_ok("--mesh=Mesh0 --method=P2 --repetitions=1 --out=p");
+  bench_.expect_ok("merge --runs o p --out=deep/whole");
+  const auto of_whole = bench_.records("deep/whole");
   ASSERT_EQ(of_whole.size(), of_run.size() + 1);
   for (std::size_t i = 0; i < of_run.size(); ++i) {
+    const std::string file = of_whole[i]["mesh_file"];
     EXPECT_EQ(of_whole[i]["mesh_file"], of_run[i]["mesh_file"]);
-    EXPECT_EQ(
-        of_whole[i]["mesh_sha256"],
-        sha256_of_file(bench_.path("deep/whole") / of_whole[i]["mesh_file"].get<std::string>()));
+    EXPECT_EQ(of_whole[i]["mesh_sha256"], sha256_of_file(bench_.path("deep/whole") / file));
   }
   EXPECT_EQ(of_whole.back()["mesh_file"], "Mesh0.msh");
 
   fs::copy(bench_.path("o"), bench_.path("other"), fs::copy_options::recursive);
   std::ofstream(bench_.path("other") / of_run[0]["mesh_file"].get<std::string>(), std::ios::app)
       << "\n";
-  EXPECT_EQ(bench("merge --runs o other --out=no"), 2);
-  EXPECT_NE(complaint().find("two meshes that would be one file"), std::string::npos)
-      << complaint();
+  bench_.expect_refusal("merge --runs o other --out=no", "two meshes that would be one file");
   EXPECT_FALSE(fs::exists(bench_.path("no")));
 }
 
 // Each against the reference's stresses of one degree less.
 TEST_F(AdaptCommand, DisplacementsOfDegreeThreeAreJudgedByStressesOfDegreeTwo) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID:k=2,P2,P3 --adapt=1%,by=HYBRID:k=2,levels=last "
-                  "--repetitions=1 --out=o"),
-            1)  // P2 does not meet the goal
-      << complaint();
   std::map<std::string, Json> of;
-  for (const Json& r : bench_.records()) of[r["method"]] = r;
+  for (const Json& r :
+       adapted("--method=HYBRID:k=2,P2,P3 --adapt=1%,by=HYBRID:k=2,levels=last", "o", 1))
+    of[r["method"]] = r;  // P2 does not meet the goal
   ASSERT_EQ(of.size(), 3u);
   const auto error = [&](const char* method) { return of[method]["error_total"].get<double>(); };
   for (const auto& [method, degree, by] :
@@ -215,9 +191,7 @@ TEST_F(AdaptCommand, DisplacementsOfDegreeThreeAreJudgedByStressesOfDegreeTwo) {
 }
 
 TEST_F(AdaptCommand, AMarkingOf1RefinesEverywhereUnderANameOfItsOwn) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=2500,marking=1 --repetitions=1 --out=o"), 0)
-      << complaint();
-  const auto records = bench_.records();
+  const auto records = adapted("--method=HYBRID --adapt=2500,marking=1");
   ASSERT_EQ(records.size(), 2u);
   const auto triangles = [&](const Json& r) {
     return read_msh(bench_.path("o") / r["mesh_file"].get<std::string>()).triangles.size();
@@ -229,16 +203,12 @@ TEST_F(AdaptCommand, AMarkingOf1RefinesEverywhereUnderANameOfItsOwn) {
 TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
   write("layered.json", R"({"mesh": {"scale": 2}, "layers": {"count": 2,
         "materials": [{"young_MPa": 1000}, {"young_MPa": 3000, "poisson": 0.4}]}})");
-  ASSERT_EQ(bench("--mesh=Mesh0 --scene=layered.json --method=HYBRID --adapt=1000,levels=last "
-                  "--repetitions=1 --out=o"),
-            0)
-      << complaint();
-  ASSERT_EQ(bench_.records().size(), 1u);
-  const Json record = bench_.records()[0];
-  EXPECT_GE(record["n_phi"].get<int>(), 1000);
-  EXPECT_NEAR(record["width_mm"].get<double>(), 20, 1e-9);
+  const auto records = adapted("--scene=layered.json --method=HYBRID --adapt=1000,levels=last");
+  ASSERT_EQ(records.size(), 1u);
+  EXPECT_GE(records[0]["n_phi"].get<int>(), 1000);
+  EXPECT_NEAR(records[0]["width_mm"].get<double>(), 20, 1e-9);
   const Json definition = Json::parse(bench_.content("o/meshes/layered/Mesh0/layered.json"));
-  EXPECT_EQ(definition, record["scene_definition"]);
+  EXPECT_EQ(definition, records[0]["scene_definition"]);
   EXPECT_FALSE(definition.contains("mesh") || definition.contains("layers"));
   EXPECT_EQ(definition["materials"]["layer 2"]["young_MPa"], 3000);
   EXPECT_EQ(definition["materials"]["layer 1"]["poisson"], 0.3);
@@ -250,10 +220,8 @@ TEST_F(AdaptCommand, GroupsThatFaceNothingAreForgotten) {
         R"({"contacts": [{"between": ["contact:block", ["contact:base", "contact:side"]]}],
         "boundary": {"displacement:floor": {"displacement_mm": [0, 0]}}, "displacement_mm": [0, -0.01],
         "load_steps": [{"displacement_mm": [0.004, -0.01]}]})");
-  ASSERT_EQ(bench("--mesh=blocks.msh --scene=pair.json --method=HYBRID --adapt=400 --repetitions=1 "
-                  "--out=o"),
-            0)
-      << complaint();
+  bench_.expect_ok(
+      "--mesh=blocks.msh --scene=pair.json --method=HYBRID --adapt=400 --repetitions=1 --out=o");
   const Json definition = Json::parse(bench_.content("o/meshes/pair/blocks/pair.json"));
   EXPECT_EQ(definition["contacts"][0]["between"],
             Json::parse(R"(["contact:block", ["contact:base"]])"));
@@ -261,11 +229,8 @@ TEST_F(AdaptCommand, GroupsThatFaceNothingAreForgotten) {
 
 TEST_F(AdaptCommand, WhatOneAsksOfTheContactHasIntervalsAndTheMeanOfBothStressesHalfOfTheError) {
   write("smooth.json", R"({"friction": 0})");
-  ASSERT_EQ(bench("--mesh=Mesh0 --scene=smooth.json --method=HYBRID --adapt=3%,1.5%,levels=last "
-                  "--repetitions=1 --fields=mean --out=o"),
-            0)
-      << complaint();
-  const auto records = bench_.records();
+  const auto records =
+      adapted("--scene=smooth.json --method=HYBRID --adapt=3%,1.5%,levels=last --fields=mean");
   ASSERT_EQ(records.size(), 2u);
   for (const Json& r : records) {
     EXPECT_EQ(r["intervals"], "guaranteed");
@@ -291,51 +256,38 @@ TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
   if (blas_name().find("BLIS") != std::string::npos ||
       blas_name().find("blis") != std::string::npos)
     GTEST_SKIP() << "BLIS ends the process where it is granted no memory";
-  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01%,levels=last --memory-limit=3 "
-                  "--repetitions=1 --out=o"),
-            1);
-  EXPECT_NE(complaint().find("note: --adapt=0.01%: not reached for Mesh0/default: HYBRID on "),
-            std::string::npos)
-      << complaint();
-  EXPECT_EQ(bench_.records().size(), 1u);  // what there is is measured
-  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01%,levels=last --memory-limit=3 "
-                  "--repetitions=1 --out=none -- --benchmark_filter=NoSuchCase"),
-            1);
-  EXPECT_NE(complaint().find("not reached for Mesh0/default"), std::string::npos) << complaint();
-  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01%,levels=last --memory-limit=3 "
-                  "--repetitions=1 --out=none -- --benchmark_filter='('"),
-            2);
+  const std::string run = "--method=HYBRID --adapt=0.01%,levels=last --memory-limit=3 ",
+                    note = "note: --adapt=0.01%: not reached for Mesh0/default: HYBRID on ";
+  EXPECT_EQ(adapted(run, "o", 1).size(), 1u);  // what there is is measured
+  EXPECT_TRUE(testing::contains(complaint(), note));
+  adapted(run + "-- --benchmark_filter=NoSuchCase", "none", 1);
+  EXPECT_TRUE(testing::contains(complaint(), note));
+  adapted(run + "-- --benchmark_filter='('", "none", 2);
 }
 #endif
 
 TEST_F(AdaptCommand, ADryRunPlansTheFirstLevel) {
-  ASSERT_EQ(bench("--adapt=1% --dry-run --mesh=Mesh0 --method=HYBRID --out=o"), 0) << complaint();
-  EXPECT_EQ(complaint(),
-            "note: --adapt: of the first level alone; the others are known when it is solved\n");
-  EXPECT_NE(bench_.content("out.txt").find("Mesh0/default/HYBRID"), std::string::npos);
+  const auto plan = bench_.expect_ok("--adapt=1% --dry-run --mesh=Mesh0 --method=HYBRID --out=o");
+  EXPECT_TRUE(plan.err.starts_with("note: --adapt: of the first level alone")) << plan.err;
+  EXPECT_TRUE(testing::contains(plan.out, "Mesh0/default/HYBRID"));
   EXPECT_FALSE(std::filesystem::exists(bench_.path("o")));
-  EXPECT_EQ(bench("--adapt=1%,by=P2 --dry-run --mesh=Mesh0 --method=HYBRID --out=o"), 2);
 }
 
 TEST_F(AdaptCommand, RefusesWhatItCannotAdapt) {
-  for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
-           {"--adapt=foo", "--adapt: foo (allowed: a total error"},
-           {"--adapt=0%", "--adapt: 0% (allowed"},
-           {"--adapt=100%", "--adapt: 100% (allowed"},
-           {"--adapt=-5", "--adapt: -5 (allowed"},
-           {"--adapt=1%,marking=0", "--adapt: marking: 0 (allowed"},
-           {"--adapt=1%,marking=2", "--adapt: marking: 2 (allowed"},
-           {"--adapt=1%,foo", "--adapt: foo (allowed: a total error"},
-           {"--fields=all", "--fields: all (allowed: mean"},
-           {"--adapt=marking=0.5", "--adapt:  (allowed: a total error"},
-           {"--adapt=levels=last", "--adapt:  (allowed: a total error"},
-           {"--adapt=1%,levels=first", "--adapt: levels=first (allowed: all, last)"},
-           {"--adapt=1%,by=P2", "--adapt: by=P2 (allowed: HYBRID"},
-           {"--adapt=1%,by=3STEPD", "--adapt: by=3STEPD (allowed: HYBRID"},
-           {"--adapt=1%,by=FOO", "--adapt: by=FOO (allowed: HYBRID"}}) {
-    EXPECT_EQ(bench(arguments + " --mesh=Mesh0 --method=HYBRID --out=o"), 2) << arguments;
-    EXPECT_NE(complaint().find(said), std::string::npos) << complaint();
-    EXPECT_EQ(std::ranges::count(complaint(), '\n'), 1) << complaint();
+  for (const auto& [arguments, named] :
+       {std::pair("--adapt=foo", "--adapt: foo (allowed: a total error"),
+        {"--adapt=0%", "--adapt: 0% (allowed"},
+        {"--adapt=100%", "--adapt: 100% (allowed"},
+        {"--adapt=-5", "--adapt: -5 (allowed"},
+        {"--adapt=1%,marking=0", "--adapt: marking: 0 (allowed"},
+        {"--adapt=1%,marking=2", "--adapt: marking: 2 (allowed"},
+        {"--adapt=1%,foo", "--adapt: foo (allowed: a total error"},
+        {"--fields=all", "--fields: all (allowed: mean"},
+        {"--adapt=levels=last", "--adapt:  (allowed: a total error"},
+        {"--adapt=1%,levels=first", "--adapt: levels=first (allowed: all, last)"},
+        {"--adapt=1%,by=P2", "--adapt: by=P2 (allowed: HYBRID"},
+        {"--adapt=1%,by=FOO", "--adapt: by=FOO (allowed: HYBRID"}}) {
+    bench_.expect_refusal(std::string(arguments) + " --mesh=Mesh0 --method=HYBRID --out=o", named);
     EXPECT_FALSE(std::filesystem::exists(bench_.path("o"))) << arguments;
   }
 }

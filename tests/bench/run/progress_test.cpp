@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/support/contains.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::progress_test {
@@ -60,8 +61,8 @@ TEST(Progress, AShortRunAsksNoRecordsAndSaysNothingOfTheTimeLeft) {
     return std::vector<std::optional<double>>(cases.size());
   });
   const std::string line = progress.line(planned("A"));
-  EXPECT_NE(line.find("[1/2] Mesh0/default/A: ok"), std::string::npos) << line;
-  EXPECT_EQ(line.find("left"), std::string::npos) << line;
+  EXPECT_TRUE(testing::contains(line, "[1/2] Mesh0/default/A: ok"));
+  EXPECT_FALSE(testing::contains(line, "left"));
 }
 
 TEST(Progress, WhatIsExpectedCountsLessAndLess) {
