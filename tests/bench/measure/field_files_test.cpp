@@ -6,13 +6,13 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <map>
-#include <sstream>
 
 #include "assembly/problem/pose.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
+#include "tests/bench/measure/csv_columns.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -23,32 +23,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Columns = std::map<std::string, std::vector<std::string>>;
+using testing::Columns, testing::numbers;
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line + ",");
-  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-Columns read_csv(const fs::path& file) {
-  std::istringstream text(testing::text_of(file));
-  std::string line;
-  std::getline(text, line);
-  const std::vector<std::string> names = cells_of(line);
-  Columns columns;
-  while (std::getline(text, line))
-    for (std::size_t k = 0; k < names.size(); ++k)
-      columns[names[k]].push_back(cells_of(line).at(k));
-  return columns;
-}
-
-std::vector<double> numbers(const Columns& columns, const std::string& name) {
-  std::vector<double> values;
-  for (const std::string& cell : columns.at(name)) values.push_back(std::stod(cell));
-  return values;
-}
+Columns read_csv(const fs::path& file) { return testing::csv_columns(testing::text_of(file)); }
 
 // Nine rows per triangle, each at its place.
 void expect_stresses(const Columns& rows, const Mesh& mesh, const testing::ExactField& exact) {
@@ -263,7 +240,7 @@ TEST(FieldFiles, WhatIsNotKnownIsLeftOut) {
   solved.write(folder.path());  // an Airy method knows no displacement
   EXPECT_FALSE(fs::exists(folder / "a.displacement.csv"));
   EXPECT_FALSE(fs::exists(folder / "a.error.csv"));
-  EXPECT_EQ(testing::text_of(folder / "a.vtu").find("displacement_mm"), std::string::npos);
+  EXPECT_FALSE(testing::contains(testing::text_of(folder / "a.vtu"), "displacement_mm"));
   EXPECT_EQ(numbers(read_csv(folder / "a.contact.csv"), "slip_mm").size(),
             static_cast<std::size_t>(solved.system.contact.count));
 }

@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <numeric>
-#include <sstream>
 #include <tuple>
 
 #include "support/errors.hpp"
+#include "tests/bench/measure/csv_columns.hpp"
 #include "tests/bench/measure/examined.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/two_blocks.hpp"
@@ -19,7 +20,6 @@ namespace airybench::step_fields_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::lines_of;
 using testing::text_of;
 
 // Pressed, sheared, and back.
@@ -40,23 +40,8 @@ Record examined(int steps, const fs::path& file, const char* method = "HYBRID") 
   return bench.examine(select_methods(method).front(), file).record;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream text(line + ",");
-  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-// Of the columns of a table, one as numbers.
 std::vector<double> column(const fs::path& file, const std::string& name) {
-  std::vector<std::string> lines = lines_of(text_of(file));
-  const std::vector<std::string> names = cells_of(lines.at(0));
-  const auto at =
-      static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  std::vector<double> values;
-  for (std::size_t k = 1; k < lines.size(); ++k)
-    values.push_back(std::stod(cells_of(lines[k]).at(at)));
-  return values;
+  return testing::numbers(testing::csv_columns(text_of(file)), name);
 }
 
 // The files of a series, which must be there.
@@ -212,11 +197,10 @@ TEST(StepFields, StepsWithoutTheBodyHaveTheirContactPoints) {
   EXPECT_FALSE(fs::exists(steps / "0001.vtu"));
   const std::string body = text_of(folder / "a&b.pvd"),
                     contact = text_of(folder / "a&b.contact.pvd");
-  EXPECT_NE(body.find("<DataSet timestep=\"2\" part=\"0\" file=\"a&#38;b.steps/0002.vtu\"/>"),
-            std::string::npos)
-      << body;
-  EXPECT_EQ(body.find("0001.vtu"), std::string::npos);
-  EXPECT_NE(contact.find("a&#38;b.steps/0001.contact.vtu"), std::string::npos) << contact;
+  EXPECT_TRUE(testing::contains(
+      body, "<DataSet timestep=\"2\" part=\"0\" file=\"a&#38;b.steps/0002.vtu\"/>"));
+  EXPECT_FALSE(testing::contains(body, "0001.vtu"));
+  EXPECT_TRUE(testing::contains(contact, "a&#38;b.steps/0001.contact.vtu"));
 }
 
 TEST(StepFields, AStepThatCannotBeWrittenLeavesTheStepsBeforeIt) {
