@@ -28,7 +28,7 @@ class OwnBodies : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(OwnBodies, FromTheModelToTablePicturesAndAdaptedMeshes) {
-  const testing::CommandResult result = run("--adapt=3% --fields");
+  const testing::CommandResult result = run("--adapt=5% --fields");
   const std::vector<Json> records = bench_.records();
   ASSERT_GE(records.size(), 2u) << result.err << result.out;
   bool all_ok = true;
@@ -44,7 +44,7 @@ TEST_P(OwnBodies, FromTheModelToTablePicturesAndAdaptedMeshes) {
   double error = 1;
   for (const Json& record : records)
     if (record["method"] == "HYBRID") error = record["error_discretisation"];
-  EXPECT_LE(error, 0.03);
+  EXPECT_LE(error, 0.05);
   int pictures = 0;
   for (const auto& file : fs::directory_iterator(bench_.path("o/fields")))
     pictures += file.path().extension() == ".vtu" ? 1 : 0;
@@ -74,8 +74,8 @@ TEST_P(OwnBodies, FacesOfDifferentBodiesAreProposedInPairs) {
       "--mesh=" + body(".geo") + " --scene=" + body(".json") + " --method=HYBRID:CG --out=o",
       "export AIRYBENCH_CACHE_DIR=cache; ");
   EXPECT_EQ(bench_.records().at(0)["status"], "skipped") << cg.err;
-  EXPECT_NE(cg.out.find("active sets hold edges at walls only"), std::string::npos) << cg.out;
-  EXPECT_NE(cg.err.find("faces that press on each other are matched: "), std::string::npos);
+  EXPECT_TRUE(testing::contains(cg.out, "active sets hold edges at walls only"));
+  EXPECT_TRUE(testing::contains(cg.err, "faces that press on each other are matched: "));
 }
 
 // Its middle and upper block are held by contact alone.
@@ -86,16 +86,11 @@ TEST_P(OwnBodies, WhatContactAloneHoldsIsNotExportedAndSomeMethodsSkipIt) {
   const testing::CommandResult refused =
       bench_.run("export-problem --format=npz --out=exported" + of, cache);
   EXPECT_EQ(refused.code, 2);
-  EXPECT_NE(refused.err.find("pile: a body that contact alone holds has no D to export (allowed: "
-                             "bodies that displacement edges hold)\n"),
-            std::string::npos)
-      << refused.err;
+  EXPECT_TRUE(testing::contains(refused.err, "pile: a body that contact alone holds has no D"));
   EXPECT_FALSE(fs::exists(bench_.path("exported")));
   const testing::CommandResult skipped = bench_.run("--method=ALM:AUTO --out=o" + of, cache);
   EXPECT_EQ(bench_.records().at(0)["status"], "skipped") << skipped.err;
-  EXPECT_NE(skipped.out.find("a body that contact or points alone hold: its motion is found by"),
-            std::string::npos)
-      << skipped.out;
+  EXPECT_TRUE(testing::contains(skipped.out, "a body that contact or points alone hold"));
 }
 
 const std::vector<const char*> few = {"cylinder", "plate", "stack"},

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "tests/support/complaint.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::scene_file_test {
@@ -13,15 +12,17 @@ namespace {
 class SceneFile : public ::testing::Test {
  protected:
   Scene read(const std::string& text) {
-    std::ofstream(file_) << text;
+    testing::write_text(file_, text);
     return read_scene(file_);
   }
-  // The complaint without the file's name in front.
-  std::string complaint(const std::string& text) {
-    const auto what = testing::complaint_of<InputError>([&] { read(text); });
-    EXPECT_TRUE(what.starts_with(file_.string() + ": ")) << what;
-    EXPECT_EQ(what.find('\n'), std::string::npos);
-    return what.substr(std::min(what.size(), file_.string().size() + 2));
+  // Each text's complaint, in one line, begins with the file's name and this.
+  void expect_complaints(
+      const std::vector<std::pair<std::string, std::string>>& complaint_of_text) {
+    for (const auto& [text, beginning] : complaint_of_text) {
+      const auto what = testing::complaint_of<InputError>([&, &of = text] { read(of); });
+      EXPECT_TRUE(what.starts_with(file_.string() + ": " + beginning)) << text << ": " << what;
+      EXPECT_FALSE(testing::contains(what, "\n"));
+    }
   }
   const testing::TemporaryFolder folder_;
   const std::filesystem::path file_ = folder_ / "my scene.json";
@@ -103,24 +104,23 @@ TEST_F(SceneFile, BoundaryGroupsAreRead) {
 }
 
 TEST_F(SceneFile, ComplaintsOfBoundaryGroups) {
-  EXPECT_EQ(complaint(R"({"boundary": []})"),
-            "boundary: [] (allowed: an object with a boundary group as each key)");
-  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure": 3}}})"),
-            "boundary: force: pressure: unknown key, perhaps pressure_MPa (allowed: traction_MPa, "
-            "pressure_MPa, displacement_mm, support, friction, clearance_mm, wall, face)");
-  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure_MPa": [1, 2]}}})"),
-            "boundary: force: pressure_MPa: [1,2] (allowed: a number)");
-  EXPECT_EQ(complaint(R"({"boundary": {"force": {"traction_MPa": 3}}})"),
-            "boundary: force: traction_MPa: 3 (allowed: two numbers [x, y])");
-  EXPECT_EQ(complaint(R"({"boundary": {"force": {"traction_MPa": {"values": [[1, 2], [3, 4]]}}}})"),
-            "boundary: force: traction_MPa: {\"values\":[[1,2],[3,4]]} (allowed: {\"at_mm\": "
-            "[[x, y], [x, y]], \"values\": [..., ...]}, both given)");
-  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure_MPa": {"at_mm": [[1, 2]]}}}})"),
-            "boundary: force: pressure_MPa: at_mm: [[1,2]] (allowed: a list of two)");
-  EXPECT_EQ(complaint(R"({"boundary": {"displacement": {"support": "roller"}}})"),
-            "boundary: displacement: support: \"roller\" (allowed: full, normal)");
-  EXPECT_EQ(complaint(R"({"boundary": {"contact:tip": {"pressure_MPa": 3}}})"),
-            "boundary: contact:tip: pressure_MPa (allowed: on a force boundary)");
+  const auto of_force = [](const char* values) {
+    return std::string(R"({"boundary": {"force": )") + values + "}}";
+  };
+  expect_complaints(
+      {{R"({"boundary": []})", "boundary: [] (allowed: "},
+       {of_force(R"({"pressure": 3})"),
+        "boundary: force: pressure: unknown key, perhaps pressure_MPa (allowed: traction_MPa, "},
+       {of_force(R"({"pressure_MPa": [1, 2]})"), "boundary: force: pressure_MPa: [1,2] (allowed: "},
+       {of_force(R"({"traction_MPa": 3})"), "boundary: force: traction_MPa: 3 (allowed: "},
+       {of_force(R"({"traction_MPa": {"values": [[1, 2], [3, 4]]}})"),
+        "boundary: force: traction_MPa: {\"values\":[[1,2],[3,4]]} (allowed: "},
+       {of_force(R"({"pressure_MPa": {"at_mm": [[1, 2]]}})"),
+        "boundary: force: pressure_MPa: at_mm: [[1,2]] (allowed: "},
+       {R"({"boundary": {"displacement": {"support": "roller"}}})",
+        "boundary: displacement: support: \"roller\" (allowed: full, normal)"},
+       {R"({"boundary": {"contact:tip": {"pressure_MPa": 3}}})",
+        "boundary: contact:tip: pressure_MPa (allowed: on a force boundary)"}});
 }
 
 TEST_F(SceneFile, LoadStepsAreRead) {
@@ -139,25 +139,23 @@ TEST_F(SceneFile, LoadStepsAreRead) {
 }
 
 TEST_F(SceneFile, ComplaintsOfLoadSteps) {
-  const std::string allowed =
-      " (allowed: a whole number from 1 to 1000, or a list of 1 to 999 steps)";
-  for (const char* wrong : {"0", "1001", "1.5", "[]", "{}", "true", "null"})
-    EXPECT_EQ(complaint(std::string("{\"load_steps\": ") + wrong + "}"),
-              std::string("load_steps: ") + wrong + allowed);
-  EXPECT_EQ(complaint(R"({"load_steps": [3]})"), "load_steps: 1: 3 (allowed: a JSON object)");
-  EXPECT_EQ(complaint(R"({"load_steps": [{}, {"friction": 1}]})"),
-            "load_steps: 2: friction: unknown key (allowed: displacement_mm, "
-            "body_force_N_per_mm3, clearance_mm, boundary, contacts)");
-  EXPECT_EQ(complaint(R"({"load_steps": [{}, {"clearance_mm": -1}]})"),
-            "load_steps: 2: clearance_mm: -1 (allowed: 0 to 1e15 mm)");
-  EXPECT_EQ(complaint(R"({"load_steps": [{"displacement_mm": 3}]})"),
-            "load_steps: 1: displacement_mm: 3 (allowed: two numbers [x, y])");
-  EXPECT_EQ(complaint(R"({"load_steps": [{"boundary": {"displacement": {"support": "full"}}}]})"),
-            "load_steps: 1: boundary: displacement: support (allowed: traction_MPa, pressure_MPa, "
-            "displacement_mm, clearance_mm)");
-  EXPECT_EQ(
-      complaint(R"({"load_steps": [{"boundary": {"force": {"displacement_mm": [0, 0]}}}]})"),
-      "load_steps: 1: boundary: force: displacement_mm (allowed: on a displacement boundary)");
+  for (const std::string wrong : {"0", "1001", "1.5", "[]", "{}", "true", "null"})
+    expect_complaints({{"{\"load_steps\": " + wrong + "}",
+                        "load_steps: " + wrong + " (allowed: a whole number"}});
+  expect_complaints(
+      {{R"({"load_steps": [3]})", "load_steps: 1: 3 (allowed: "},
+       {R"({"load_steps": [{}, {"friction": 1}]})",
+        "load_steps: 2: friction: unknown key (allowed: "},
+       {R"({"load_steps": [{}, {"clearance_mm": -1}]})",
+        "load_steps: 2: clearance_mm: -1 (allowed: "},
+       {R"({"load_steps": [{"displacement_mm": 3}]})",
+        "load_steps: 1: displacement_mm: 3 (allowed: "},
+       {R"({"load_steps": [{"boundary": {"displacement": {"support": "full"}}}]})",
+        "load_steps: 1: boundary: displacement: support (allowed: "},
+       {R"({"load_steps": [{"boundary": {"contact": {"friction": 1}}}]})",
+        "load_steps: 1: boundary: contact: friction (allowed: "},
+       {R"({"load_steps": [{"boundary": {"force": {"displacement_mm": [0, 0]}}}]})",
+        "load_steps: 1: boundary: force: displacement_mm (allowed: on a displacement boundary)"}});
 }
 
 TEST_F(SceneFile, WallsFacesAndContactGroups) {
@@ -178,136 +176,104 @@ TEST_F(SceneFile, WallsFacesAndContactGroups) {
 
 TEST_F(SceneFile, APolylineOfAFileIsInTheDefinition) {
   const auto folder = file_.parent_path();
-  std::ofstream(folder / "profile.csv") << "x_mm,y_mm\n# lower\n0, 1\r\n\n2 3.5\n";
-  std::ofstream(file_) << R"({"wall": {"polyline": "profile.csv"}})";
+  testing::write_text(folder / "profile.csv", "x_mm,y_mm\n# lower\n0, 1\r\n\n2 3.5\n");
+  testing::write_text(file_, R"({"wall": {"polyline": "profile.csv"}})");
   const airybench::SceneFile given = read_scene_file(file_);
   EXPECT_EQ(given.definition, R"({"wall":{"polyline":[[0.0,1.0],[2.0,3.5]]}})");
   const auto& points = std::get<PolylineWall>(given.scene.wall.value()).points_mm;
   EXPECT_EQ(points, (std::vector<Eigen::Vector2d>{{0, 1}, {2, 3.5}}));
-  std::ofstream(folder / "profile.csv") << "0 1\n2 a\n";
+  testing::write_text(folder / "profile.csv", "0 1\n2 a\n");
   const auto said = [&] {
     return testing::complaint_of<InputError>([&] { read_scene_file(file_); });
   };
   const std::string named = file_.string() + ": polyline: " + (folder / "profile.csv").string();
-  EXPECT_EQ(said(), named + ":2: '2 a' (allowed: two numbers, x and y in mm)");
+  EXPECT_TRUE(said().starts_with(named + ":2: '2 a' (allowed: ")) << said();
   std::filesystem::remove(folder / "profile.csv");
-  EXPECT_EQ(said(), named + ": cannot be opened: No such file or directory");
+  EXPECT_TRUE(said().starts_with(named + ": cannot be opened")) << said();
 }
 
 TEST_F(SceneFile, ACrownIsTheCataloguesAlone) {
-  std::ofstream(file_) << R"({"friction": 0.1})";
+  testing::write_text(file_, R"({"friction": 0.1})");
   const airybench::SceneFile given = read_scene_file(file_), other = on_other_bodies(given);
   EXPECT_EQ(given.scene.crown_radius_mm, 400);
   EXPECT_FALSE(other.scene.crown_radius_mm);
   EXPECT_EQ(other.definition, R"({"friction":0.1,"crown_radius_mm":null})");
-  std::ofstream(file_) << R"({"crown_radius_mm": 7})";
+  testing::write_text(file_, R"({"crown_radius_mm": 7})");
   EXPECT_EQ(on_other_bodies(read_scene_file(file_)).scene.crown_radius_mm, 7);
 }
 
 TEST_F(SceneFile, ComplaintsOfWalls) {
-  EXPECT_EQ(complaint(R"({"wall": 3})"), "wall: 3 (allowed: a JSON object)");
-  EXPECT_EQ(complaint(R"({"wall": {}})"), "wall: {} (allowed: one of flat, circle, polyline)");
-  EXPECT_EQ(complaint(R"({"wall": {"plane": {}}})"),
-            "wall: plane: unknown key (allowed: flat, circle, polyline)");
-  EXPECT_EQ(complaint(R"({"wall": {"flat": {"normal": [0, 1]}}})"),
-            "wall: flat: {\"normal\":[0,1]} (allowed: {\"point_mm\": [x, y], \"normal\": [x, y]}, "
-            "both given)");
-  EXPECT_EQ(complaint(R"({"wall": {"flat": {"point_mm": [0, 0], "normal": [0, 0]}}})"),
-            "wall: flat: normal: [0, 0] (allowed: finite, not zero)");
-  EXPECT_EQ(complaint(R"({"wall": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})"),
-            "wall: circle: {\"centre_mm\":[0,0],\"radius_mm\":1} (allowed: {\"centre_mm\": [x, y], "
-            "\"radius_mm\": ..., \"bodies\": \"inside\" or \"outside\"}, all given)");
-  EXPECT_EQ(complaint(R"({"wall": {"circle": {"bodies": "between"}}})"),
-            "wall: circle: bodies: \"between\" (allowed: inside, outside)");
-  EXPECT_EQ(complaint(R"({"wall": {"circle": {"radius_mm": 0}}})"),
-            "wall: circle: radius_mm: 0 (allowed: a number > 0)");
-  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0]]}})"),
-            "wall: polyline: 1 point(s) (allowed: at least 2)");
-  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0], [0, 0]]}})"),
-            "wall: polyline: point 2: [0, 0] again (allowed: different points)");
-  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0], 1]}})"),
-            "wall: polyline: 1 (allowed: two numbers [x, y])");
-  EXPECT_EQ(complaint(R"({"face": {"circle": {"bodies": "inside"}}})"),
-            "face: circle: bodies: unknown key (allowed: centre_mm, radius_mm)");
-  EXPECT_EQ(complaint(R"({"face": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})"),
-            "face: given without a wall (allowed: with one)");
   const std::string wall = R"("wall": {"flat": {"point_mm": [0, 0], "normal": [0, 1]}})";
-  EXPECT_EQ(complaint("{" + wall + R"(, "crown_radius_mm": 3})"),
-            "wall and crown_radius_mm (allowed: one of them)");
   // What --new-scene writes, with a wall added.
   EXPECT_NO_THROW(scene_of("{" + wall + R"(, "crown_radius_mm": null})", "scene"));
-  EXPECT_EQ(complaint(R"({"boundary": {"force": {)" + wall + "}}}"),
-            "boundary: force: wall (allowed: on a contact boundary)");
-  EXPECT_EQ(complaint(R"({"boundary": {"contact": {"friction": -1}}})"),
-            "boundary: contact: friction: -1 (allowed: 0 to 1e6)");
-  EXPECT_EQ(complaint(R"({"boundary": {"contact": {"pressure_MPa": 1}}})"),
-            "boundary: contact: pressure_MPa (allowed: on a force boundary)");
-  EXPECT_EQ(complaint(R"({"load_steps": [{"boundary": {"contact": {"friction": 1}}}]})"),
-            "load_steps: 1: boundary: contact: friction (allowed: traction_MPa, pressure_MPa, "
-            "displacement_mm, clearance_mm)");
+  expect_complaints(
+      {{R"({"wall": 3})", "wall: 3 (allowed: "},
+       {R"({"wall": {}})", "wall: {} (allowed: one of flat, circle, polyline)"},
+       {R"({"wall": {"plane": {}}})", "wall: plane: unknown key (allowed: flat, circle, polyline)"},
+       {R"({"wall": {"flat": {"normal": [0, 1]}}})", "wall: flat: {\"normal\":[0,1]} (allowed: "},
+       {R"({"wall": {"flat": {"point_mm": [0, 0], "normal": [0, 0]}}})",
+        "wall: flat: normal: [0, 0] (allowed: "},
+       {R"({"wall": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})",
+        "wall: circle: {\"centre_mm\":[0,0],\"radius_mm\":1} (allowed: "},
+       {R"({"wall": {"circle": {"bodies": "between"}}})",
+        "wall: circle: bodies: \"between\" (allowed: inside, outside)"},
+       {R"({"wall": {"circle": {"radius_mm": 0}}})", "wall: circle: radius_mm: 0 (allowed: "},
+       {R"({"wall": {"polyline": [[0, 0]]}})", "wall: polyline: 1 point(s) (allowed: "},
+       {R"({"wall": {"polyline": [[0, 0], [0, 0]]}})",
+        "wall: polyline: point 2: [0, 0] again (allowed: "},
+       {R"({"wall": {"polyline": [[0, 0], 1]}})", "wall: polyline: 1 (allowed: "},
+       {R"({"face": {"circle": {"bodies": "inside"}}})", "face: circle: bodies: unknown key ("},
+       {R"({"face": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})",
+        "face: given without a wall (allowed: "},
+       {"{" + wall + R"(, "crown_radius_mm": 3})", "wall and crown_radius_mm (allowed: "},
+       {R"({"boundary": {"force": {)" + wall + "}}}",
+        "boundary: force: wall (allowed: on a contact"},
+       {R"({"boundary": {"contact": {"friction": -1}}})",
+        "boundary: contact: friction: -1 (allowed: 0 to 1e6)"}});
 }
 
 TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {
-  EXPECT_EQ(complaint(R"({"mesh": 3})"), "mesh: 3 (allowed: a JSON object)");
-  EXPECT_EQ(complaint(R"({"mesh": {"turn": 3}})").substr(0, 40),
-            "mesh: turn: unknown key (allowed: refine");
   EXPECT_TRUE(scene_of(R"({"mesh": {"polygon": true}})", "scene").mesh.polygon);
-  EXPECT_EQ(complaint(R"({"mesh": {"polygon": 1}})"), "mesh: polygon: 1 (allowed: true, false)");
-  EXPECT_EQ(complaint(R"({"mesh": {"refine": 1.5}})"),
-            "mesh: refine: 1.5 (allowed: a whole number from 0 to 6)");
-  EXPECT_EQ(complaint(R"({"mesh": {"grade": {"ratio": 10}}})"),
-            "mesh: grade: {\"ratio\":10} (allowed: {\"at_mm\": [x, y], \"ratio\": ...}, both "
-            "given)");
-  EXPECT_EQ(complaint(R"({"mesh": {"grade": {"at_mm": [0, 0], "ratio": 0}}})"),
-            "mesh: grade: ratio: 0 (allowed: >= 1)");
-  EXPECT_EQ(complaint(R"({"mesh": {"stretch": [1, 0]}})"),
-            "mesh: stretch: [1, 0] (allowed: two numbers > 0)");
-  EXPECT_EQ(complaint(R"({"layers": {"normal": [1, 0]}})"),
-            "layers: {\"normal\":[1,0]} (allowed: either count or interfaces_mm)");
-  EXPECT_EQ(complaint(R"({"layers": {"count": 2, "materials": [{"poisson": 0.6}]}})"),
-            "layers: materials: poisson: 0.6 (allowed: between -1 and 0.5, both excluded)");
-  EXPECT_EQ(complaint(R"({"layers": {"count": 2, "normal": [0, 0]}})"),
-            "layers: normal: [0, 0] (allowed: a direction, not [0, 0])");
-  EXPECT_EQ(complaint(R"({"group": 1})"), "group: 1 (allowed: a text)");
+  expect_complaints(
+      {{R"({"mesh": 3})", "mesh: 3 (allowed: "},
+       {R"({"mesh": {"turn": 3}})", "mesh: turn: unknown key (allowed: refine"},
+       {R"({"mesh": {"polygon": 1}})", "mesh: polygon: 1 (allowed: true, false)"},
+       {R"({"mesh": {"refine": 1.5}})", "mesh: refine: 1.5 (allowed: "},
+       {R"({"mesh": {"grade": {"ratio": 10}}})", "mesh: grade: {\"ratio\":10} (allowed: "},
+       {R"({"mesh": {"grade": {"at_mm": [0, 0], "ratio": 0}}})",
+        "mesh: grade: ratio: 0 (allowed: >= 1)"},
+       {R"({"mesh": {"stretch": [1, 0]}})", "mesh: stretch: [1, 0] (allowed: "},
+       {R"({"layers": {"normal": [1, 0]}})", "layers: {\"normal\":[1,0]} (allowed: "},
+       {R"({"layers": {"count": 2, "materials": [{"poisson": 0.6}]}})",
+        "layers: materials: poisson: 0.6 (allowed: "},
+       {R"({"layers": {"count": 2, "normal": [0, 0]}})", "layers: normal: [0, 0] (allowed: "},
+       {R"({"group": 1})", "group: 1 (allowed: a text)"}});
 }
 
 TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
-  EXPECT_EQ(complaint(R"({"frction": 0.2})").substr(0, 50),
-            "frction: unknown key, perhaps friction (allowed: t");
-  EXPECT_EQ(complaint(R"({"gravity": 0.2})").substr(0, 32), "gravity: unknown key (allowed: t");
-  EXPECT_EQ(
-      complaint(R"({"roles": ["force"]})"),
-      "roles: [\"force\"] (allowed: an object with a curve's name or number, numbers \"1-4\", "
-      "or \"rest\" as each key)");
-  EXPECT_EQ(
-      complaint(R"({"roles": {"3": "held"}})"),
-      "roles: 3: \"held\" (allowed: displacement, force, contact, or one of these with a name: "
-      "force:top)");
-  EXPECT_EQ(complaint(R"({"length_unit": "cm"})"),
-            "length_unit: \"cm\" (allowed: mm, m, inch, of a model's lengths)");
-  EXPECT_EQ(complaint(R"({"friction": "0.2"})"), "friction: \"0.2\" (allowed: a number)");
-  EXPECT_EQ(complaint(R"({"friction": -1})"), "friction: -1 (allowed: 0 to 1e6)");
-  EXPECT_EQ(complaint(R"({"poisson": 0.5})"),
-            "poisson: 0.5 (allowed: between -1 and 0.5, both excluded)");
-  EXPECT_EQ(complaint(R"({"young_MPa": 0})"), "young_MPa: 0 (allowed: 1e-30 to 1e30)");
-  EXPECT_EQ(complaint(R"({"plane": "bent"})"), "plane: \"bent\" (allowed: strain, stress)");
-  EXPECT_EQ(complaint(R"({"teeth": 0})"), "teeth: 0 (allowed: a whole number from 1 to 1000000)");
-  EXPECT_EQ(complaint(R"({"teeth": 1.5})"),
-            "teeth: 1.5 (allowed: a whole number from 1 to 1000000)");
-  EXPECT_EQ(complaint(R"({"length_mm": -2})"), "length_mm: -2 (allowed: a number > 0)");
-  EXPECT_EQ(complaint(R"({"displacement_mm": [1]})"),
-            "displacement_mm: [1] (allowed: two numbers [x, y])");
-  EXPECT_EQ(complaint(R"({"crown_radius_mm": 0})"),
-            "crown_radius_mm: 0 (allowed: > 0, up to 1e15 mm, or null for a wall on the edges)");
-  EXPECT_EQ(complaint(R"({"materials": {"a": {"nu": 0.3}}})"),
-            "materials: a: nu: unknown key (allowed: young_MPa, poisson)");
-  EXPECT_EQ(complaint(R"({"materials": {"a": {"poisson": 0.7}}})"),
-            "materials: a: poisson: 0.7 (allowed: between -1 and 0.5, both excluded)");
-  EXPECT_EQ(complaint(R"({"friction": 0.2, "friction": 0.3})"), "friction: given twice");
-  EXPECT_EQ(complaint(R"({"friction": 1e400})").substr(0, 30), "not JSON: number overflow pars");
-  EXPECT_EQ(complaint("[]"), "the file: [] (allowed: a JSON object)");
-  EXPECT_EQ(complaint("{\"friction\": 0.2").substr(0, 22), "not JSON: parse error ");
-  EXPECT_EQ(complaint("").substr(0, 22), "not JSON: parse error ");
+  expect_complaints(
+      {{R"({"frction": 0.2})", "frction: unknown key, perhaps friction (allowed: t"},
+       {R"({"gravity": 0.2})", "gravity: unknown key (allowed: t"},
+       {R"({"roles": ["force"]})", "roles: [\"force\"] (allowed: "},
+       {R"({"roles": {"3": "held"}})", "roles: 3: \"held\" (allowed: displacement, force, contact"},
+       {R"({"length_unit": "cm"})", "length_unit: \"cm\" (allowed: mm, m, inch"},
+       {R"({"friction": "0.2"})", "friction: \"0.2\" (allowed: a number)"},
+       {R"({"friction": -1})", "friction: -1 (allowed: 0 to 1e6)"},
+       {R"({"poisson": 0.5})", "poisson: 0.5 (allowed: between -1 and 0.5, both excluded)"},
+       {R"({"young_MPa": 0})", "young_MPa: 0 (allowed: 1e-30 to 1e30)"},
+       {R"({"plane": "bent"})", "plane: \"bent\" (allowed: strain, stress)"},
+       {R"({"teeth": 0})", "teeth: 0 (allowed: a whole number from 1 to 1000000)"},
+       {R"({"teeth": 1.5})", "teeth: 1.5 (allowed: "},
+       {R"({"length_mm": -2})", "length_mm: -2 (allowed: a number > 0)"},
+       {R"({"displacement_mm": [1]})", "displacement_mm: [1] (allowed: two numbers [x, y])"},
+       {R"({"crown_radius_mm": 0})", "crown_radius_mm: 0 (allowed: > 0, up to 1e15 mm, or null"},
+       {R"({"materials": {"a": {"nu": 0.3}}})", "materials: a: nu: unknown key (allowed: "},
+       {R"({"materials": {"a": {"poisson": 0.7}}})", "materials: a: poisson: 0.7 (allowed: "},
+       {R"({"friction": 0.2, "friction": 0.3})", "friction: given twice"},
+       {R"({"friction": 1e400})", "not JSON: number overflow pars"},
+       {"[]", "the file: [] (allowed: a JSON object)"},
+       {"{\"friction\": 0.2", "not JSON: parse error "},
+       {"", "not JSON: parse error "}});
 }
 
 TEST_F(SceneFile, HowAMeshIsMadeOfAModel) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "assembly/problem/scene.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
@@ -22,74 +23,50 @@ std::map<std::string, std::string> left_out(const Scene& scene, const char* meth
   return result;
 }
 
-using Expected = std::map<std::string, std::string>;
-
-TEST(Stages, DefaultSceneLeavesOutOnlyWhatItHasNot) {
-  const std::string rigid = "no displacement that strains the body, no body force";
-  EXPECT_EQ(left_out({}, "3STEPD"), (Expected{{"assemble q", rigid},
-                                              {"assemble F", "no traction, no body force"},
-                                              {"assemble F0", "no body force"}}));
-}
-
-TEST(Stages, WithoutFrictionTheTangentialLawGoes) {
-  EXPECT_EQ(left_out({.friction = 0}, "3STEPD").at("contact: tangential law"),
-            "no friction: tangential forces are prescribed to zero");
-}
-
-// Of a tooth that is held where edges have this role.
-std::map<std::string, std::string> left_out_without(BoundaryRole role) {
-  return left_out({}, "3STEPD",
-                  testing::with_role(testing::small_tooth(4, 4), role, BoundaryRole::displacement));
-}
-
-TEST(Stages, WithoutContactCondensationAndContactLoopGo) {
-  const auto gone = left_out_without(BoundaryRole::contact);
-  for (const char* stage : {"assemble C_C", "assemble gap", "contact", "condense: D and G"})
-    EXPECT_EQ(gone.at(stage), "no contact boundary") << stage;
-}
-
-TEST(Stages, WithoutForceBoundaryStepTwoGoes) {
-  const auto gone = left_out_without(BoundaryRole::force);
-  for (const char* stage : {"condense: eliminate force multipliers", "assemble C_F"})
-    EXPECT_EQ(gone.at(stage), "no force boundary") << stage;
-}
-
-TEST(Stages, ZeroLoadsAreNotAssembled) {
-  const auto gone = left_out({.crown_radius_mm = {}, .displacement_mm = {0, 0}}, "3STEPD");
-  EXPECT_EQ(gone.at("assemble q"), "no displacement that strains the body, no body force");
-  EXPECT_EQ(gone.at("assemble gap"), "the gap is zero");
-}
-
-TEST(Stages, AMethodWithoutAiryFunctionGetsNoAirySystem) {
-  EXPECT_EQ(left_out({}, "HYBRID").at("assemble S"),
-            "the method does not work with the Airy function");
+// Of every method and many scenes which stages are run: LeanScenes.
+TEST(Stages, WhatIsLeftOutHasItsReason) {
+  const auto held_at = [](BoundaryRole role) {
+    return testing::with_role(testing::small_tooth(4, 4), role, BoundaryRole::displacement);
+  };
+  const auto expect_reason = [](const std::map<std::string, std::string>& gone,
+                                std::initializer_list<const char*> stages, const char* reason) {
+    for (const char* stage : stages) EXPECT_EQ(gone.at(stage), reason) << stage;
+  };
+  EXPECT_EQ(left_out({}, "3STEPD").size(), 3u);
+  expect_reason(left_out({}, "3STEPD"), {"assemble q"},
+                "no displacement that strains the body, no body force");
+  expect_reason(left_out({}, "3STEPD"), {"assemble F"}, "no traction, no body force");
+  expect_reason(left_out({}, "3STEPD"), {"assemble F0"}, "no body force");
+  expect_reason(left_out({.friction = 0}, "3STEPD"), {"contact: tangential law"},
+                "no friction: tangential forces are prescribed to zero");
+  expect_reason(left_out({}, "3STEPD", held_at(BoundaryRole::contact)),
+                {"assemble C_C", "assemble gap", "contact", "condense: D and G"},
+                "no contact boundary");
+  expect_reason(left_out({}, "3STEPD", held_at(BoundaryRole::force)),
+                {"condense: eliminate force multipliers", "assemble C_F"}, "no force boundary");
+  expect_reason(left_out({.crown_radius_mm = {}, .displacement_mm = {0, 0}}, "3STEPD"),
+                {"assemble gap"}, "the gap is zero");
+  expect_reason(left_out({}, "HYBRID"), {"assemble S"},
+                "the method does not work with the Airy function");
 }
 
 TEST(Stages, ABodyThatContactAloneHoldsIsForMethodsThatCondense) {
   Scene scene;
   scene.boundary["displacement"].support = BoundaryValues::Support::normal;  // it may slide along
   for (const Method& method : methods()) {
-    auto gone = left_out(scene, method.name.c_str());
+    const auto gone = left_out(scene, method.name.c_str());
     const bool skipped = method.name.starts_with("ALM") || method.name == "HYBRID:CG";
     EXPECT_EQ(gone.contains("all stages"), skipped) << method.name;
-    if (!skipped) continue;
-    EXPECT_EQ(
-        gone["all stages"],
-        "a body that contact or points alone hold: its motion is found by methods of ours that "
-        "condense on the contact points");
   }
 }
 
 TEST(Stages, OnABodyWithAHoleTheAiryMethodsAreSkipped) {
-  const std::string why =
-      "a body with 1 hole needs a multi-valued Airy function (methods without one: HYBRID, "
-      "HYBRID:CHOLMOD, HYBRID:MUMPS, HYBRID:CG, P2, P3, P4)";
   for (const Method& method : methods()) {
     const auto gone = left_out({}, method.name.c_str(), testing::small_plate(1));
-    if (method.blocks == Blocks::airy)
-      EXPECT_EQ(gone, (Expected{{"all stages", why}})) << method.name;
-    else
-      EXPECT_FALSE(gone.contains("all stages")) << method.name;
+    ASSERT_EQ(gone.contains("all stages"), method.blocks == Blocks::airy) << method.name;
+    if (method.blocks != Blocks::airy) continue;
+    EXPECT_TRUE(testing::contains(gone.at("all stages"), "with 1 hole")) << method.name;
+    EXPECT_TRUE(testing::contains(gone.at("all stages"), "HYBRID, ")) << method.name;
   }
 }
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 
 #include "assembly/problem/pose.hpp"
@@ -62,13 +61,10 @@ TEST(Study, PointsTurnTheKnobOfTheMethod) {
     EXPECT_GE(values.size(), 5u);
     EXPECT_EQ(at_paper_stop, std::string(name).starts_with("ALM") ? 1 : 0);
   }
-}
-
-TEST(Study, AnUnparametrisedAlmHasItsOwnAndThePapersStop) {
-  const auto points = error_points(method("ALM"), {});
-  ASSERT_EQ(points.size(), 2u);
-  EXPECT_EQ(points[0].settings.stop, Stop::target);
-  EXPECT_EQ(points[1].settings.stop, Stop::paper);
+  const auto unparametrised = error_points(method("ALM"), {});
+  ASSERT_EQ(unparametrised.size(), 2u);
+  EXPECT_EQ(unparametrised[0].settings.stop, Stop::target);
+  EXPECT_EQ(unparametrised[1].settings.stop, Stop::paper);
 }
 
 TEST(Study, OnlyAMethodWithoutAKnobIsOnePoint) {
@@ -83,39 +79,10 @@ TEST(Study, OnlyAMethodWithoutAKnobIsOnePoint) {
   }
 }
 
-TEST(Study, AMethodDoesWhatItsPointSays) {
-  const Options options = options_of("error");
-  testing::CaseBench bench(mesh0(), options);
-  const Method symmlq = method("SDTIC3");
-  std::int64_t before = 0;
-  for (const StudyPoint& point : error_points(symmlq, {})) {
-    const Record record = bench.examine(symmlq, point).record;
-    ASSERT_TRUE(record.linear_iterations) << *point.knob.value;
-    EXPECT_GT(*record.linear_iterations, before) << *point.knob.value;
-    EXPECT_TRUE(record.attempts.empty());
-    before = *record.linear_iterations;
-  }
-}
-
 std::vector<PosedScene> scenes(const std::vector<std::string>& names = {"default"}) {
   std::vector<PosedScene> result;
   for (const std::string& name : names) result.push_back({name, "", "", "", "{}", mesh0()});
   return result;
-}
-
-// Each number of threads is a case that says so; iterative methods are tightened as ever.
-TEST(Study, ScalingHasACaseForEveryNumberOfThreads) {
-  Options options = options_of("scaling");
-  options.run.thread_counts = {1, 2, 4};
-  const auto cases = plan_cases(scenes(), select_methods("HYBRID,SDTIC6"), options.run);
-  ASSERT_EQ(cases.size(), 6u);
-  EXPECT_EQ(cases[1].name().text(), "Mesh0/default/SDTIC6/study=scaling/threads=2");
-  for (const Case& c : cases) {
-    EXPECT_TRUE(case_name_of(c.name().text())) << c.name().text();
-    EXPECT_TRUE(c.settings.tightened);
-    EXPECT_EQ(c.settings.threads, c.knob.value);
-    EXPECT_EQ(blank_record(c, Limits()).threads, c.knob.value);
-  }
 }
 
 // The method is told, whatever the run's number is.
@@ -156,24 +123,18 @@ TEST(Study, AllCanBePlanned) {
 
 TEST(Study, AFilesComplaintNamesKeyValueAndWhatIsAllowed) {
   const testing::TemporaryFolder folder;
-  const auto complaint = [&](const std::string& text) {
+  for (const auto& [text, beginning] :
+       {std::pair(R"({"about": "a", "methods": "P2"})", "methods: unknown key, perhaps method ("),
+        {"{}", "about: is missing (allowed: a text)"},
+        {R"({"about": "a", "points": "all"})", "points: \"all\" (allowed: accuracy, "},
+        {R"({"about": "a", "once": 1})", "once: 1 (allowed: true, false)"},
+        {R"({"about": "a", "options": {"--timeout": 60}})", "options: --timeout: 60 (allowed: "},
+        {R"({"about": "a", "about": "b"})", "about: given twice"},
+        {"{", "not JSON: parse error"}}) {
     const std::filesystem::path file = testing::write_text(folder / "mine.json", text);
     const auto what = testing::complaint_of<FileError>([&] { study_of(file); });
-    EXPECT_TRUE(what.starts_with(file.string() + ": ")) << what;
-    return what.substr(file.string().size() + 2);
-  };
-  EXPECT_EQ(complaint(R"({"about": "a", "methods": "P2"})"),
-            "methods: unknown key, perhaps method (allowed: about, points, method, options, "
-            "scenes, once, "
-            "condition, intervals)");
-  EXPECT_EQ(complaint("{}"), "about: is missing (allowed: a text)");
-  EXPECT_EQ(complaint(R"({"about": "a", "points": "all"})"),
-            "points: \"all\" (allowed: accuracy, contact, threads)");
-  EXPECT_EQ(complaint(R"({"about": "a", "once": 1})"), "once: 1 (allowed: true, false)");
-  EXPECT_EQ(complaint(R"({"about": "a", "options": {"--timeout": 60}})"),
-            "options: --timeout: 60 (allowed: a text)");
-  EXPECT_EQ(complaint(R"({"about": "a", "about": "b"})"), "about: given twice");
-  EXPECT_TRUE(complaint("{").starts_with("not JSON: parse error"));
+    EXPECT_TRUE(what.starts_with(file.string() + ": " + beginning)) << what;
+  }
 }
 
 TEST(Study, LoadStepsGoByTheScenes) {
@@ -181,21 +142,6 @@ TEST(Study, LoadStepsGoByTheScenes) {
   for (const std::filesystem::path& file : scenes_of(options_of("load-steps").run.study))
     steps.push_back(1 + pose(read_scene(file), testing::small_tooth(4, 4)).later_steps.size());
   EXPECT_EQ(steps, (std::vector<std::size_t>{1, 2, 5, 10, 20, 50}));
-}
-
-// All solvers of the contact study find the same forces, and say who they are.
-TEST(Study, ContactSolversAgree) {
-  const Options options = options_of("contact");
-  const auto cases =
-      plan_cases(scenes(), select_methods(default_methods(options.run.study)), options.run);
-  ASSERT_EQ(cases.size(), all_contact_solvers.size());
-  testing::CaseBench bench(mesh0(), options);
-  for (const Case& c : cases) {
-    const Record record = bench.examine(c, "").record;
-    EXPECT_EQ(outcome_of(record), "ok") << c.name().text();
-    EXPECT_LE(record.error_force, 1e-11) << c.name().text();
-    EXPECT_EQ(record.newton_steps.value_or(0) > 0, c.settings.contact == ContactSolver::newton);
-  }
 }
 
 TEST(Study, OnlyWhatCondensesHasAContactSolver) {
@@ -208,12 +154,6 @@ TEST(Study, OnlyWhatCondensesHasAContactSolver) {
   options.run.cases.stop = Stop::paper;
   EXPECT_EQ(plan_cases(scenes(), select_methods("3STEPD"), options.run)[0].settings.contact,
             ContactSolver::gauss_seidel);
-}
-
-TEST(Study, ScenesOfTheAtlasAreSorted) {
-  const auto files = scenes_of(options_of("stability").run.study);
-  EXPECT_GE(files.size(), 40u);
-  EXPECT_TRUE(std::ranges::is_sorted(files));
 }
 
 TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
@@ -286,22 +226,16 @@ TEST(Study, RecordsReplaceTheirOwnKindOnlyAndClaimsPassThemOver) {
   const auto append = [&](const Record& record) {
     RecordFiles(folder, {}, Keep::others).append(record);
   };
-  const auto count_lines = [&] {
-    std::ifstream in(file);
-    std::string line;
-    int lines = 0;
-    while (std::getline(in, line)) ++lines;
-    return lines;
-  };
+  const auto count_lines = [&] { return testing::lines_of(testing::text_of(file)).size(); };
   append(point_record("", {}));
   append(point_record("error", 1e-2));
   append(point_record("error", 1e-4));
   append(point_record("stability", {}));
-  EXPECT_EQ(count_lines(), 4);
+  EXPECT_EQ(count_lines(), 4u);
   append(point_record("error", 1e-2));
   append(point_record("stability", {}));
   append(point_record("", {}));
-  EXPECT_EQ(count_lines(), 4);
+  EXPECT_EQ(count_lines(), 4u);
   EXPECT_EQ(read_records(file).size(), 1u);
 }
 
