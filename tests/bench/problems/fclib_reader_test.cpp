@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <tuple>
 
 #include "assembly/problem/scene.hpp"
 #include "bench/problems/problem_files.hpp"
@@ -101,10 +102,12 @@ class FclibReader : public ::testing::Test {
     return read_fclib(file());
   }
   std::filesystem::path file() const { return bench_.path("p.hdf5"); }
+  // The complaint begins with the file's name and this, which ends where what is allowed begins.
   void refused(const Contents& contents, const std::string& message) const {
-    SCOPED_TRACE(message);
-    EXPECT_EQ(testing::complaint_of<FileError>([&] { read(contents); }),
-              file().string() + ": " + message);
+    const auto what = testing::complaint_of<FileError>([&] { read(contents); });
+    EXPECT_TRUE(what.starts_with(file().string() + ": " + message + " (allowed: "))
+        << what << "\nfor " << message;
+    EXPECT_FALSE(testing::contains(what, "\n"));
   }
   const testing::BenchCommand bench_;
 };
@@ -183,88 +186,70 @@ TEST_F(FclibReader, CondensesGlobalProblems) {
       Eigen::Vector3d(0.5, 0, 0.1) + H.transpose() * M.inverse() * Eigen::Vector4d(-1, 0, 2, 1);
   EXPECT_LT((problem.G - q).norm(), 1e-14);
 
-  const auto refused_with = [&](const std::string& name, const Values& values,
-                                const std::string& message) {
+  for (const auto& [name, values, message] :
+       std::vector<std::tuple<std::string, Values, std::string>>{
+           {"H/x", {{1, 2, 0, -1, 0}}, "H: column 2 moves nothing"},
+           {"H/p", whole({0, 1, 3, 0}), "H/p: [2] is 3"},
+           {"H/m", whole({5}), "H/m: 5"},
+           {"H/n", whole({4}), "H/n: 4"},
+           {"M/x", {{2, 3, 3, 3, 4, 5}}, "M: is not positive definite to rounding"},
+           {"vectors/b", {{0}}, "vectors/b: equality constraints"}}) {
     Contents contents = global_contents();
     contents["/fclib_global/" + name] = values;
     refused(contents, "/fclib_global/" + message);
-  };
-  refused_with("H/x", {{1, 2, 0, -1, 0}},
-               "H: column 2 moves nothing (allowed: columns that are not zero)");
-  refused_with("H/p", whole({0, 1, 3, 0}), "H/p: [2] is 3 (allowed: 0 to 2)");
-  refused_with("H/m", whole({5}), "H/m: 5 (allowed: 4)");
-  refused_with("H/n", whole({4}), "H/n: 4 (allowed: a multiple of 3 per contact)");
-  refused_with("M/x", {{2, 3, 3, 3, 4, 5}},
-               "M: is not positive definite to rounding (allowed: a positive definite matrix)");
-  refused_with("vectors/b", {{0}}, "vectors/b: equality constraints (allowed: none)");
+  }
 }
 
 TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
-  const auto with = [&](const std::string& name, const Values& values) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused({}, "/fclib_local: is missing");
+  for (const auto& [name, values, message] :
+       std::vector<std::tuple<std::string, Values, std::string>>{
+           {"spacedim", whole({4}), "spacedim: 4"},
+           {"spacedim", whole({3}), "W/m: 4"},
+           {"W/m", whole({3}), "W/m: 3"},
+           {"W/m", whole({-4}), "W/m: -4"},
+           {"W/m", {{4}}, "W/m: values of another kind"},
+           {"W/n", whole({6}), "W/n: 6"},
+           {"W/nz", whole({-3}), "W/nz: -3"},
+           {"W/nzmax", whole({17}), "W/nzmax: 17"},
+           {"W/p", whole({0, 1}), "W/p: 2 values"},
+           {"W/p", whole({0, 3, 2, 5, 6}), "W/p: does not rise from 0"},
+           {"W/p", whole({0, 2, 3, 5, 7}), "W/p: [4] is 7"},
+           {"W/i", whole({0, 2, 1, 0, 2, 4}), "W/i: [5] is 4"},
+           {"W/i", whole({0, -1, 1, 0, 2, 3}), "W/i: [1] is -1"},
+           {"vectors/mu", {{0.3, -0.1}}, "vectors/mu: [1] is -0.1"},
+           {"vectors/mu", {{0.3, 1e308}}, "vectors/mu: [1] is 1e+308"},
+           {"vectors/mu", {{nan, 0}}, "vectors/mu: [0] is nan"},
+           {"vectors/mu", {{0.3}}, "vectors/mu: 1 values"},
+           {"vectors/q", {{0, 1e-300, 0, 0}}, "W: its vector has entries of up to 1e-300"},
+           {"vectors/q", {{0, 0, 1 / 0.0, 0}}, "vectors/q: [2] is inf"},
+           {"vectors/s", {{0}}, "vectors/s: equality constraints"},
+           {"V/m", whole({0}), "V: equality constraints"}}) {
     Contents contents = contents_of(small_problem(), Storage::rows);
     contents["/fclib_local/" + name] = values;
-    return contents;
-  };
-  const auto of = [](const std::function<void(contact::Problem&)>& change,
-                     Storage storage = Storage::rows) {
+    refused(contents, "/fclib_local/" + message);
+  }
+  const auto refused_matrix = [&](const std::function<void(contact::Problem&)>& change,
+                                  const std::string& message, Storage storage = Storage::rows) {
     contact::Problem problem = small_problem();
     change(problem);
-    return contents_of(problem, storage);
+    refused(contents_of(problem, storage), "/fclib_local/W: " + message);
   };
-  refused({}, "/fclib_local: is missing (allowed: a group of this name, or /fclib_global)");
-  refused(with("spacedim", whole({4})),
-          "/fclib_local/spacedim: 4 (allowed: a whole number from 2 to 3)");
-  refused(with("spacedim", whole({3})),
-          "/fclib_local/W/m: 4 (allowed: a multiple of 3 per contact)");
-  refused(with("W/m", whole({3})), "/fclib_local/W/m: 3 (allowed: a multiple of 2 per contact)");
-  refused(with("W/m", whole({-4})),
-          "/fclib_local/W/m: -4 (allowed: a whole number from 2 to 1000000)");
-  refused(with("W/m", {{4}}),
-          "/fclib_local/W/m: values of another kind (allowed: 1 whole numbers)");
-  refused(with("W/n", whole({6})), "/fclib_local/W/n: 6 (allowed: 4)");
-  refused(with("W/nz", whole({-3})),
-          "/fclib_local/W/nz: -3 (allowed: a whole number from -2 to 6)");
-  refused(with("W/nzmax", whole({17})),
-          "/fclib_local/W/nzmax: 17 (allowed: a whole number from 1 to 16)");
-  refused(with("W/p", whole({0, 1})), "/fclib_local/W/p: 2 values (allowed: 5 whole numbers)");
-  refused(with("W/p", whole({0, 3, 2, 5, 6})),
-          "/fclib_local/W/p: does not rise from 0 (allowed: 0 to at most 6)");
-  refused(with("W/p", whole({0, 2, 3, 5, 7})), "/fclib_local/W/p: [4] is 7 (allowed: 0 to 6)");
-  refused(with("W/i", whole({0, 2, 1, 0, 2, 4})), "/fclib_local/W/i: [5] is 4 (allowed: 0 to 3)");
-  refused(with("W/i", whole({0, -1, 1, 0, 2, 3})), "/fclib_local/W/i: [1] is -1 (allowed: 0 to 3)");
-  refused(with("vectors/mu", {{0.3, -0.1}}),
-          "/fclib_local/vectors/mu: [1] is -0.1 (allowed: 0 to 1e+06)");
-  refused(with("vectors/mu", {{0.3, 1e308}}),
-          "/fclib_local/vectors/mu: [1] is 1e+308 (allowed: 0 to 1e+06)");
   for (const double scale : {1e308, 1e-300})
-    refused(
-        of([&](contact::Problem& p) { p.D = Eigen::Matrix4d::Identity() * scale; }),
-        fmt::format("/fclib_local/W: diagonal entry 0 is {:.3g} (allowed: 1e-50 to 1e+50)", scale));
-  refused(of([](contact::Problem& p) { p.D(1, 2) = p.D(2, 1) = 1e300; }),
-          "/fclib_local/W: entries of up to 1e+300 (allowed: 1e+50)");
-  refused(with("vectors/q", {{0, 1e-300, 0, 0}}),
-          "/fclib_local/W: its vector has entries of up to 1e-300 (allowed: 0, or 1e-50 to 1e+50)");
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  refused(with("vectors/mu", {{nan, 0}}),
-          "/fclib_local/vectors/mu: [0] is nan (allowed: finite numbers)");
-  refused(with("vectors/q", {{0, 0, 1 / 0.0, 0}}),
-          "/fclib_local/vectors/q: [2] is inf (allowed: finite numbers)");
-  refused(with("vectors/mu", {{0.3}}), "/fclib_local/vectors/mu: 1 values (allowed: 2 numbers)");
-  refused(with("vectors/s", {{0}}), "/fclib_local/vectors/s: equality constraints (allowed: none)");
-  refused(with("V/m", whole({0})), "/fclib_local/V: equality constraints (allowed: none)");
-  refused(of([](contact::Problem& p) { p.D(0, 2) = 0.6; }),
-          "/fclib_local/W: differs from its transpose by 0.1 (allowed: 1 % of the largest diagonal "
-          "entry)");
-  refused(of([](contact::Problem& p) { p.D(3, 3) = 0; }, Storage::triplets),
-          "/fclib_local/W: diagonal entry 3 is 0 (allowed: > 0)");
+    refused_matrix([&](contact::Problem& p) { p.D = Eigen::Matrix4d::Identity() * scale; },
+                   fmt::format("diagonal entry 0 is {:.3g}", scale));
+  refused_matrix([](contact::Problem& p) { p.D(1, 2) = p.D(2, 1) = 1e300; },
+                 "entries of up to 1e+300");
+  refused_matrix([](contact::Problem& p) { p.D(0, 2) = 0.6; }, "differs from its transpose by 0.1");
+  refused_matrix([](contact::Problem& p) { p.D(3, 3) = 0; }, "diagonal entry 3 is 0",
+                 Storage::triplets);
   for (const auto& [name, values] : contents_of(small_problem(), Storage::rows)) {
     Contents contents = contents_of(small_problem(), Storage::rows);
     contents.erase(name);
-    const std::string what = values.whole ? "whole numbers" : "numbers";
-    const std::size_t count = name.ends_with("spacedim") ? 1 : values.numbers.size();
-    refused(contents, fmt::format("{}: is missing (allowed: {} {})", name, count, what));
+    refused(contents, name + ": is missing");
     contents[name + "/group"] = whole({1});
-    refused(contents, fmt::format("{}: is no dataset (allowed: {} {})", name, count, what));
+    refused(contents, name + ": is no dataset");
   }
 }
 
@@ -292,13 +277,13 @@ TEST_F(FclibReader, ValuesThatAreNotInTheFileAreRefused) {
     });
   };
   const std::string place = file().string() + ": " + x + ": ";
-  EXPECT_EQ(made_by([](hid_t how) { H5Pset_external(how, "/dev/zero", 0, H5F_UNLIMITED); }),
-            place + "values in other files (allowed: 6 numbers)");
-  EXPECT_EQ(made_by([](hid_t) {}), place + "values that were never written (allowed: 6 numbers)");
-  EXPECT_EQ(complaint_with([&](hid_t opened, hid_t) {
-              H5Lcreate_external("other.hdf5", "/x", opened, x.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-            }),
-            place + "is a link to another file (allowed: values in this file)");
+  EXPECT_TRUE(made_by([](hid_t how) {
+                H5Pset_external(how, "/dev/zero", 0, H5F_UNLIMITED);
+              }).starts_with(place + "values in other files ("));
+  EXPECT_TRUE(made_by([](hid_t) {}).starts_with(place + "values that were never written ("));
+  EXPECT_TRUE(complaint_with([&](hid_t opened, hid_t) {
+                H5Lcreate_external("other.hdf5", "/x", opened, x.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+              }).starts_with(place + "is a link to another file ("));
 }
 
 TEST_F(FclibReader, WhatIsNoHdf5IsRefused) {
@@ -336,30 +321,28 @@ TEST_F(FclibReader, AtTheEndsOfTheRangeEverySolverIsRight) {
   }
 }
 
-TEST_F(FclibReader, DamagedFilesAreRefusedOrRead) {
+// Local ones: Mutants.
+TEST_F(FclibReader, DamagedGlobalFilesAreRefusedOrRead) {
   std::mt19937 random(1);
-  for (const Contents& contents :
-       {contents_of(small_problem(), Storage::rows), global_contents()}) {
-    write(file(), contents);
-    const std::string bytes = testing::text_of(file());
-    int refusals = 0;
-    for (int k = 0; k < 500; ++k) {
-      std::string damaged = bytes;
-      const int flips = 1 + static_cast<int>(random() % 4);
-      for (int flip = 0; flip < flips; ++flip)
-        damaged[random() % damaged.size()] ^= static_cast<char>(1 + random() % 255);
-      testing::write_text(file(), damaged);
-      try {
-        const auto problem = read_fclib(file());
-        EXPECT_EQ(problem.D.rows(), problem.G.size());
-      } catch (const FileError& why) {
-        EXPECT_EQ(std::string(why.what()).find('\n'), std::string::npos);
-        ++refusals;
-      }
+  write(file(), global_contents());
+  const std::string bytes = testing::text_of(file());
+  int refusals = 0;
+  for (int k = 0; k < 500; ++k) {
+    std::string damaged = bytes;
+    const int flips = 1 + static_cast<int>(random() % 4);
+    for (int flip = 0; flip < flips; ++flip)
+      damaged[random() % damaged.size()] ^= static_cast<char>(1 + random() % 255);
+    testing::write_text(file(), damaged);
+    try {
+      const auto problem = read_fclib(file());
+      EXPECT_EQ(problem.D.rows(), problem.G.size());
+    } catch (const FileError& why) {
+      EXPECT_FALSE(testing::contains(why.what(), "\n"));
+      ++refusals;
     }
-    EXPECT_GT(refusals, 50);
-    EXPECT_LT(refusals, 500);
   }
+  EXPECT_GT(refusals, 50);
+  EXPECT_LT(refusals, 500);
 }
 
 // One contact, by hand: W = I, q = (−1, 0.5), μ = 0.5, r = (2, 0): u = r + q = (1, 0.5), û = (1.25,
