@@ -30,33 +30,6 @@ void expect_inside(const Bracket& interval, double value, const char* what) {
   EXPECT_GE(interval.high, value) << what;
 }
 
-TEST(ContactIntervals, HoldWhatFinerMeshesSay) {
-  for (const double mu : {0.0, 0.2}) {
-    SCOPED_TRACE(mu);
-    const Scene scene = {.friction = mu};
-    const Judged coarse(scene, testing::catalogue_mesh("Mesh0")),
-        fine(scene, testing::catalogue_mesh("Mesh3"));
-    ASSERT_TRUE(coarse.intervals && fine.intervals);
-    EXPECT_EQ(coarse.intervals->guaranteed, mu == 0);
-    const auto &wide = *coarse.intervals, &narrow = *fine.intervals;
-    ASSERT_TRUE(wide.normal_resultant_N && narrow.normal_resultant_N);
-    expect_inside(*wide.normal_resultant_N, fine.resultant(0), "normal");
-    EXPECT_LT(narrow.normal_resultant_N->high - narrow.normal_resultant_N->low,
-              0.6 * (wide.normal_resultant_N->high - wide.normal_resultant_N->low));
-    EXPECT_EQ(wide.tangential_resultant_N.has_value(), mu > 0);
-    if (mu > 0) expect_inside(*wide.tangential_resultant_N, fine.resultant(1), "tangential");
-    ASSERT_TRUE(wide.largest_pressure_within_MPa) << name_of(wide.peak);
-    expect_inside(*wide.largest_pressure_within_MPa, narrow.largest_pressure_MPa, "pressure");
-    ASSERT_FALSE(wide.ends.empty());
-    EXPECT_LE(wide.ends.size(), narrow.ends.size());
-    for (const ContactEnd& end : wide.ends)
-      EXPECT_TRUE(std::ranges::any_of(narrow.ends, [&](const ContactEnd& fine_end) {
-        const auto [low, high] = fine_end.along_face_mm;
-        return end.along_face_mm.low <= low && high <= end.along_face_mm.high;
-      })) << end.at_mm.transpose();
-  }
-}
-
 TEST(ContactIntervals, OfEveryDegreeHoldWhatTheHighestSaysOfAFinerMesh) {
   for (const double mu : {0.0, 0.2}) {
     const Scene scene = {.friction = mu};

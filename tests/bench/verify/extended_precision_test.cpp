@@ -113,28 +113,19 @@ std::vector<Case> cases() {
 
 class ExtendedPrecision : public ::testing::TestWithParam<int> {
  protected:
-  void record(const std::string& what, double value) {
-    std::ostringstream text;
-    text << value;
-    RecordProperty(what, text.str());
-  }
-  const std::string mesh_name_ = "Mesh" + std::to_string(GetParam());
-  const Mesh mesh_ = testing::catalogue_mesh(mesh_name_);
+  const Mesh mesh_ = testing::catalogue_mesh("Mesh" + std::to_string(GetParam()));
 };
 
 TEST_P(ExtendedPrecision, ErrorsOfTheReferenceAndOfHybrid) {
   for (const Case& c : cases()) {
+    if (GetParam() > 0 && c.scene.friction == 0) continue;  // 128 bits are computed in software
     SCOPED_TRACE(c.name);
-    const std::string name = c.name;
     const auto problem = testing::posed(c.scene, mesh_);
     const DualSystem system = assemble(problem, Blocks::contact_points);
     const Reference reference = compute_reference(system);
     const QuadSolution exact = solve_in_quad(system, reference.F_C);
 
     const Errors of_reference = errors(*problem, exact, reference.F_C, reference.stress);
-    record(name + ", reference, F_C", of_reference.force);
-    record(name + ", reference, stress", of_reference.stress);
-    record(name + ", reference, estimate", reference.error_estimate);
     EXPECT_LE(of_reference.force, 1e-15);
     EXPECT_LE(of_reference.stress, 1e-15);
     EXPECT_LE(std::max(of_reference.force, of_reference.stress),
@@ -150,10 +141,6 @@ TEST_P(ExtendedPrecision, ErrorsOfTheReferenceAndOfHybrid) {
     const contact::Problem in_double = testing::condensed(*problem, system.contact);
     const double of_hybrids_D =
         static_cast<double>((in_double.D.cast<Quad>() - exact.D).norm() / exact.D.norm());
-    record(name + ", reference, D", of_D);
-    record(name + ", HYBRID, D", of_hybrids_D);
-    record(name + ", HYBRID, F_C", of_hybrid.force);
-    record(name + ", HYBRID, stress", of_hybrid.stress);
     EXPECT_LE(of_D, 1e-12);
     EXPECT_LE(of_hybrids_D, 1e-12);
     EXPECT_LE(of_hybrid.force, 1e-12);
@@ -172,7 +159,6 @@ TEST_P(ExtendedPrecision, HybridStressesAreTheAiryFunctionsElementByElement) {
   for (std::size_t t = 0; t < hybrid.stress.size(); ++t)
     largest =
         std::max(largest, (hybrid.stress[t] - airy.stress[t]).norm() / hybrid.stress[t].norm());
-  record("largest relative difference of an element", largest);
   EXPECT_LE(largest, 1e-9);
 }
 
@@ -191,7 +177,6 @@ TEST(ExtendedPrecision, ErrorOfTheReferenceOnBodiesWithAHole) {
   }
 }
 
-// 128 bits are computed in software.
 INSTANTIATE_TEST_SUITE_P(Mesh, ExtendedPrecision, ::testing::Range(0, 2));
 
 }  // namespace

@@ -40,21 +40,4 @@ struct Solved {
   ConstitutiveError error_with_p2() const { return error_with(p2().displacement); }
 };
 
-// The exact energy without friction lies between the bounds of Mesh0, Mesh1 and Mesh2, which close
-// in on it up to this part of it.
-template <typename ErrorOf>
-void expect_closing_bounds(ErrorOf error_of, double part) {
-  constexpr double finest_upper_bound_Nmm = 26.5295912;  // tests/data/oracles.csv
-  double gap = 1;
-  for (const char* mesh : {"Mesh0", "Mesh1", "Mesh2"}) {
-    const ConstitutiveError error = error_of(Solved({.friction = 0}, catalogue_mesh(mesh)));
-    EXPECT_TRUE(error.guaranteed) << mesh;
-    EXPECT_LT(error.lower_bound_Nmm, finest_upper_bound_Nmm) << mesh;
-    EXPECT_GT(error.upper_bound_Nmm, finest_upper_bound_Nmm) << mesh;
-    EXPECT_LT(error.upper_bound_Nmm - error.lower_bound_Nmm, gap) << mesh;
-    gap = error.upper_bound_Nmm - error.lower_bound_Nmm;
-  }
-  EXPECT_LT(gap, part * finest_upper_bound_Nmm);
-}
-
 }  // namespace airybench::testing

@@ -60,23 +60,8 @@ TEST_F(Verifier, MeasuresAForceErrorInTheDNorm) {
   }
 }
 
-TEST_F(Verifier, FindsAnUnbalancedElement) {
-  pose_scene({});
-  const double strain_energy = verified().strain_energy_Nmm;
-  solution_.stress[7].row(0).array() += 1;  // 1 MPa, constant: no divergence, but jumps
-  const Verification v = verified();
-  EXPECT_GT(v.equilibrium_residual, 1e-4);
-  EXPECT_NE(v.strain_energy_Nmm, strain_energy);
-}
-
-TEST_F(Verifier, FindsADivergence) {
-  pose_scene({});
-  solution_.stress[7](0, 2) += 1;  // xx at the centroid, in one third
-  EXPECT_GT(verified().equilibrium_residual, 1e-4);
-}
-
 TEST_F(Verifier, JudgesStressesOfEveryDegree) {
-  for (const int k : {2, 3, 4}) {
+  for (const int k : {1, 2, 3, 4}) {
     Scene scene{.friction = 0.2};
     scene.body_force_N_per_mm3 = {0.4, -0.2};
     system_ =
@@ -101,12 +86,6 @@ TEST_F(Verifier, JudgesStressesOfEveryDegree) {
     EXPECT_GT(verified().equilibrium_residual, 1e-5) << k;
     EXPECT_GT(verified().natural_map_residual, 1e-5) << k;
   }
-}
-
-TEST_F(Verifier, FindsForcesThatAreNotTheStresses) {
-  pose_scene({});
-  solution_.F_C(2) *= 1.001;
-  EXPECT_GT(verified().equilibrium_residual, 1e-5);
 }
 
 TEST_F(Verifier, FindsEveryViolationOfTheContactLaw) {
