@@ -4,6 +4,7 @@
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/summary.hpp"
 #include "tests/bench/measure/examined.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/random_scenes.hpp"
@@ -58,7 +59,7 @@ TEST(ListedScenes, ASlideOf1e9mmHasTheForcesOfOneOf1mm) {
     const Record near = examined(sliding(1), method);
     ASSERT_EQ(near.outcome, "ok") << method.name << ": " << near.status_reason;
     EXPECT_LT(near.normal_resultant_N.value(), -100);
-    for (const double far : {1e9, 1e4, 100.}) {
+    for (const double far : {1e9, 1e4}) {
       if (testing::sanitized && far < 1e9) continue;
       const Record record = examined(sliding(far), method);
       EXPECT_EQ(record.outcome, "ok") << method.name << " " << far << ": " << record.status_reason;
@@ -90,7 +91,7 @@ TEST(ListedScenes, WhereNoDisplacementIsAdmissibleThereIsNoBound) {
   const auto problem = posed([](Scene& s) { s.mesh.keep_force_edges = 0; });
   const Record record = examined(problem, select_methods("P2").front());
   EXPECT_FALSE(record.error_discretisation);
-  EXPECT_NE(record.no_discretisation_error.find("through the wall"), std::string::npos);
+  EXPECT_TRUE(testing::contains(record.no_discretisation_error, "through the wall"));
 }
 
 // Before, 0.8000042 ≤ energy ≤ 0.8000000.
@@ -162,81 +163,56 @@ TEST(ListedScenes, ABodyWithoutStressIsUnstressedAndNobodyIsAccused) {
     EXPECT_EQ(record.outcome, "unstressed") << method.name << ": " << record.status_reason;
     EXPECT_EQ(record.strain_energy_Nmm, 0);
     if (!method.in_displacements) {
-      EXPECT_NE(record.status_reason.find("least gap, before anything deforms, is 0.01 mm"),
-                std::string::npos)
-          << record.status_reason;
+      EXPECT_TRUE(testing::contains(record.status_reason,
+                                    "least gap, before anything deforms, is 0.01 mm"));
     }
   }
 }
 
 // A tooth that is moved along the wall it just touches: no force at all, and ΣF_n = −525 N, both
-// meet the law.
-TEST(ListedScenes, AnotherSolutionIsNotWrong) {
-  const auto changes = [](double pressed) {
-    return [pressed](Scene& s) {
-      s.friction = 1.5;
-      s.displacement_mm = {pressed, 0.03};
-      s.crown_radius_mm.reset();
-    };
-  };
-  const auto problem = posed(changes(0));
-  const DualSystem system = assemble(problem, Blocks::contact_points);
-  const Reference pressed =
-      compute_reference(assemble(posed(changes(0.002)), Blocks::contact_points));
-  const Reference other = compute_reference(system, pressed.F_C, StartIs::solution);
-  ASSERT_LT(other.error_estimate, 1e-12);
-  ASSERT_LT(other.F_C.sum(), -1);
-  Method finds_the_other = select_methods("HYBRID").front();
-  finds_the_other.solve = [&](const DualSystem&, const RunControl&) {
-    Solution solution;
-    solution.status = Status::ok;
-    solution.F_C = other.F_C;
-    solution.stress = other.stress;
-    return solution;
-  };
-  const Record record = examined(problem, finds_the_other);
-  EXPECT_EQ(record.outcome, "other_solution") << record.status_reason;
-  EXPECT_EQ(record.status, Status::ok);
-  EXPECT_LT(*record.error_stress, 1e-12);
-  EXPECT_GT(record.friction_coupling.value_or(0), 0.1);
-  // What does not meet the law is no solution.
-  finds_the_other.solve = [&](const DualSystem&, const RunControl&) {
-    Solution solution;
-    solution.status = Status::ok;
-    solution.F_C = 1.01 * other.F_C;
-    solution.stress = other.stress;
-    return solution;
-  };
-  EXPECT_EQ(examined(problem, finds_the_other).outcome, "wrong_success");
+// meet the law. The second load step, if any, has its own past.
+std::shared_ptr<const Problem> moved_along(double pressed, int steps) {
+  return posed([=](Scene& s) {
+    s.friction = 1.5;
+    s.displacement_mm = {pressed, 0.03};
+    s.crown_radius_mm.reset();
+    s.later_steps.resize(steps - 1);
+    for (auto& step : s.later_steps) step.displacement_mm = Eigen::Vector2d(pressed, 0.031);
+  });
 }
 
-// The same at a second load step of its own past.
-TEST(ListedScenes, AnotherSolutionOfAPathIsNotWrong) {
-  const auto changes = [](double pressed) {
-    return [pressed](Scene& s) {
-      s.friction = 1.5;
-      s.displacement_mm = {pressed, 0.03};
-      s.crown_radius_mm.reset();
-      s.later_steps.resize(1);
-      s.later_steps[0].displacement_mm = Eigen::Vector2d(pressed, 0.031);
-    };
-  };
-  const Reference pressed =
-      compute_reference(assemble(posed(changes(0.002)), Blocks::contact_points));
-  Method finds_the_other = select_methods("HYBRID").front();
-  finds_the_other.solve = [&](const DualSystem& system, const RunControl&) {
-    return answer_of(compute_reference(assemble(system.problem, Blocks::contact_points),
-                                       pressed.F_C, StartIs::solution));
-  };
-  const Record record = examined(posed(changes(0)), finds_the_other);
-  EXPECT_EQ(record.outcome, "other_solution") << record.status_reason;
-  EXPECT_TRUE(record.status_reason.starts_with("load step 1 of 2: another solution"))
-      << record.status_reason;
-  ASSERT_EQ(record.steps.size(), 2u);
-  for (const StepResult& step : record.steps) {
-    EXPECT_LT(step.error.value(), 1e-9);
-    EXPECT_LT(step.normal_resultant_N.value(), -1);
-  }
+TEST(ListedScenes, AnotherSolutionIsNotWrong) {
+  const Eigen::VectorXd start =
+      compute_reference(assemble(moved_along(0.002, 1), Blocks::contact_points)).F_C;
+  for (const int steps : {1, 2})
+    for (const double factor : {1., 1.01}) {
+      Method finds_the_other = select_methods("HYBRID").front();
+      finds_the_other.solve = [&](const DualSystem& system, const RunControl&) {
+        Solution other = answer_of(compute_reference(
+            assemble(system.problem, Blocks::contact_points), start, StartIs::solution));
+        other.F_C *= factor;
+        return other;
+      };
+      SCOPED_TRACE(::testing::Message() << steps << " steps, times " << factor);
+      const Record record = examined(moved_along(0, steps), finds_the_other);
+      if (factor > 1) {  // what does not meet the law is no solution
+        EXPECT_EQ(record.outcome, "wrong_success");
+        continue;
+      }
+      EXPECT_EQ(record.outcome, "other_solution") << record.status_reason;
+      EXPECT_EQ(record.status, Status::ok);
+      EXPECT_LT(*record.normal_resultant_N, -1);
+      if (steps == 1) {
+        EXPECT_LT(*record.error_stress, 1e-9);
+        EXPECT_GT(record.friction_coupling.value_or(0), 0.1);
+      }
+      EXPECT_EQ(record.status_reason.starts_with("load step 1 of 2: another solution"), steps > 1);
+      ASSERT_EQ(record.steps.size(), steps > 1 ? 2u : 0u);
+      for (const StepResult& step : record.steps) {
+        EXPECT_LT(step.error.value(), 1e-9);
+        EXPECT_LT(step.normal_resultant_N.value(), -1);
+      }
+    }
 }
 
 // Between three walls without friction the stress is uniform: HYBRID has it. P2 knows one normal at
@@ -276,7 +252,7 @@ TEST(ListedScenes, NothingAbove100PercentIsOk) {
   ASSERT_TRUE(record.error_discretisation);
   EXPECT_GT(*record.error_discretisation, 1);
   EXPECT_EQ(record.outcome, "inaccurate");
-  EXPECT_NE(record.status_reason.find("total error"), std::string::npos) << record.status_reason;
+  EXPECT_TRUE(testing::contains(record.status_reason, "total error"));
 }
 
 TEST(ListedScenes, StrainsThatAreNotSmallAreSaid) {

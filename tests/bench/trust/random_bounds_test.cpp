@@ -25,7 +25,7 @@
 namespace airybench::random_bounds_test {
 namespace {
 
-constexpr int scenes = testing::sanitized ? 4 : 60, refinements = testing::sanitized ? 1 : 3;
+constexpr int scenes = testing::sanitized ? 4 : 60, refinements = testing::sanitized ? 1 : 2;
 
 using testing::Dice;
 
@@ -110,8 +110,7 @@ TEST(RandomBounds, OfOneMeshHoldForAnother) {
 
 // Of every degree, on one mesh refined once.
 TEST(RandomBounds, OfOneDegreeHoldForAnother) {
-  const testing::Campaign wanted = testing::campaign(testing::sanitized ? 2 : 30);
-  std::array<int, highest_stress_degree + 1> guaranteed{};
+  const testing::Campaign wanted = testing::campaign(testing::sanitized ? 2 : 20);
   for (int i = wanted.first; i < wanted.first + wanted.count; ++i) {
     Dice dice(static_cast<std::uint32_t>(5000 + i));
     Mesh mesh = dice.below(2) == 0 ? testing::small_block(2 + dice.below(2), 2 + dice.below(2), 0)
@@ -125,7 +124,6 @@ TEST(RandomBounds, OfOneDegreeHoldForAnother) {
         const ConstitutiveError error = testing::Solved(scene, mesh, k).error();
         EXPECT_EQ(error.flaw, "") << "scene " << i << ", level " << level << ", degree " << k;
         EXPECT_TRUE(error.guaranteed);
-        guaranteed[static_cast<std::size_t>(k)] += error.guaranteed;
         bounds.below = std::max(bounds.below, error.lower_bound_Nmm);
         bounds.above = std::min(bounds.above, error.upper_bound_Nmm);
         EXPECT_LE(bounds.below, bounds.above) << "scene " << i << ", level " << level << ", degree "
@@ -133,9 +131,6 @@ TEST(RandomBounds, OfOneDegreeHoldForAnother) {
       }
     }
   }
-  for (int k = 1; k <= highest_stress_degree; ++k)
-    std::cout << fmt::format("{} scenes, degree {}: {} guaranteed bounds\n", wanted.count, k,
-                             guaranteed[static_cast<std::size_t>(k)]);
 }
 
 }  // namespace

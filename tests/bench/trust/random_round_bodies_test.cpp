@@ -1,4 +1,4 @@
-// Total errors of fifty round bodies, each a quarter with an elliptic hole and rim under tractions
+// Total errors of round bodies, each a quarter with an elliptic hole and rim under tractions
 // that a closed form leaves on both. (On chords, as degree 1 has them, these would not be linear.)
 #include <gtest/gtest.h>
 
@@ -69,9 +69,8 @@ Problem round_body(Dice& dice, const KolosovField& field) {
 }
 
 TEST(RandomRoundBodies, TotalErrorsAreAboveTheTrueOnesAndNotByMuch) {
-  constexpr int bodies = testing::sanitized ? 10 : 50;
+  constexpr int bodies = testing::sanitized ? 10 : 30;
   Dice dice(73);
-  std::array<std::vector<double>, highest_stress_degree> ratio;
   for (int body = 0; body < bodies; ++body) {
     const KolosovField field = symmetric_field(dice, dice.between(0, 0.45));
     const Problem problem = round_body(dice, field);
@@ -82,16 +81,9 @@ TEST(RandomRoundBodies, TotalErrorsAreAboveTheTrueOnesAndNotByMuch) {
       const double truth = testing::true_error(problem, solved.hybrid.stress, [&](const Point& x) {
         return field.stress(testing::point(x));
       });
-      ratio[static_cast<std::size_t>(degree - 1)].push_back(error.relative / truth);
       EXPECT_GT(error.relative, truth) << "body " << body << ", degree " << degree;
       EXPECT_LT(error.relative, 2.5 * truth) << "body " << body << ", degree " << degree;
     }
-  }
-  for (int degree = 2; degree <= highest_stress_degree; ++degree) {
-    auto& of_degree = ratio[static_cast<std::size_t>(degree - 1)];
-    std::ranges::sort(of_degree);
-    std::cout << "degree " << degree << ": " << of_degree.front() << " to " << of_degree.back()
-              << ", median " << of_degree[bodies / 2] << "\n";
   }
 }
 

@@ -23,7 +23,7 @@ constexpr double most_times_the_estimate = 10;
 // Below, an error is the rounding of the stresses, of which no estimate speaks.
 constexpr double rounding = 1e-12;
 
-constexpr int scenes = testing::sanitized ? 4 : 60;
+constexpr int scenes = testing::sanitized ? 4 : 40;
 
 // Every kind of method on every scene would take long: the direct ones, and one of higher degree
 // and an iterative one in turn.
