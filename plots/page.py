@@ -33,7 +33,7 @@ SCRIPTS = ("format.js", "chart.js", "table.js", "page.js")
 FORMAT = "airybench-night-1"
 OF_A_CASE = ("mesh", "scene", "method", "status")  # required by the page
 GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
-QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}
+QUANTITIES = {name: field for name, field in FIELDS.items() if field["nightly"] and field["label"]}
 # The table's columns, in the order shown: the errors stand next to the time.
 COLUMNS = tuple(dict.fromkeys((
     "mesh", "scene", "method", "stop", "status", "n_phi", "time_s", "time_mad_s", "peak_heap_bytes",
@@ -130,9 +130,10 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
         "bodies": bodies,
         "cases": sorted(series(cases, len(nights)), key=lambda case: (
             bodies.index(case["body"]), case["mesh"], case["scene"])),
-        "quantities": [{"key": key, "name": f["label"], "group": GROUPS.get(f["unit"], "work")}
-                       for key, f in QUANTITIES.items() if cases[key].notna().any()],
-        "errors": [f["name"] for f in FIELDS if f["name"] in COLUMNS and f["unit"] == "1"],
+        "quantities": [{"key": key, "name": field["label"],
+                        "group": GROUPS.get(field["unit"], "work")}
+                       for key, field in QUANTITIES.items() if cases[key].notna().any()],
+        "errors": [name for name in COLUMNS if FIELDS[name]["unit"] == "1"],
         "marks": marks(nights),
         "last": {"failed": last.failed, "times_judged": last.times_judged,
                  "verdicts": last.verdicts, "statuses": list(last.cases.status)},

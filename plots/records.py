@@ -1,4 +1,4 @@
-"""The keys of records, and the reader of results.csv and records.jsonl.
+"""The fields of records, and the reader of results.csv and records.jsonl.
 
 A value that its key does not allow is refused in one line: file, line, key, value, what is allowed.
 """
@@ -9,7 +9,7 @@ import math
 import re
 import zlib
 from collections.abc import Callable, Collection, Iterator
-from dataclasses import dataclass, make_dataclass
+from dataclasses import dataclass, make_dataclass, replace
 from itertools import count
 from pathlib import Path
 
@@ -20,22 +20,22 @@ from catalogue import Look, with_bodies, with_looks
 LONGEST_LINE, LONGEST_FILE = 2**24, 2**30  # characters; a file as in bench/records/record_reader.hpp
 LONGEST_SHOWN = 200  # of a value in a message
 SMALLEST, LARGEST = 1e-250, 1e250  # sizes of numbers other than 0
-STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
-            "out_of_memory", "crashed", "machine_fault", "skipped")
-COMPLETED = STATUSES[:3]
+# From bench/records/record_fields.def; results/README.md explains them.
+FIELDS: dict[str, dict] = {field["name"]: field for field in json.loads(
+    Path(__file__).with_name("record_fields.json").read_text(encoding="utf-8"))}
+
+
+def words_of(name: str) -> tuple[str, ...]:
+    """That a field takes; empty: any."""
+    return tuple(FIELDS[name].get("words", ()))
+
+
+STATUSES, OUTCOMES, STOPS = map(words_of, ("status", "outcome", "stop"))
+CONTACT_SOLVERS, OWNERS = map(words_of, ("contact_solver", "memory_by_owner"))
+COMPLETED = STATUSES[:3]  # has_answer() of support/status.hpp
 VERIFIED = ("", "ok", "other_solution")  # outcomes of an ok case that count as solved
-OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
-STOPS = ("target", "paper")
-CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")
-# A study is a file: bench/plan/study.hpp.
-STUDIES = tuple(sorted(file.stem for file in
-                       (Path(__file__).resolve().parents[1] / "bench/scenes").glob("*.json")))
-# The cases of each method in a study: its `points`. Older records have the study's name alone.
-POINTS = ("accuracy", "contact", "threads")
+# Older records have the study's name alone.
 POINTS_OF_OLDER = {"error": "accuracy", "contact": "contact", "scaling": "threads"}
-# As in memory_by_owner, from what every method has to what few have.
-OWNERS = ("blocks", "system_matrix", "factor", "preconditioner", "intermediate", "condensed",
-          "iteration", "answer", "check", "other")
 
 
 class RecordsError(Exception):
@@ -93,6 +93,13 @@ def number(allowed: str, accepts: Callable[[float], bool]) -> Kind:
     return Kind(allowed, lambda value: is_number(value) and accepts(value), to_number, None)
 
 
+def whole_number(least: int) -> Kind:
+    def accepts(value: object) -> bool:
+        return isinstance(value, int) and not isinstance(value, bool) and value >= least
+    return Kind(f"a whole number, {least} or more", accepts,
+                lambda cell: int(cell) if re.fullmatch("[0-9]{1,18}", cell) else cell, None)
+
+
 def one_of(allowed: tuple[str, ...], may_be_empty: bool = True) -> Kind:
     return Kind("one of " + ", ".join(allowed), allowed.__contains__, may_be_empty=may_be_empty)
 
@@ -101,11 +108,7 @@ TEXT = Kind("a text", is_text)
 NAME = Kind("a name", lambda value: is_text(value) and bool(value.strip()), may_be_empty=False)
 FLAG = Kind("true or false", lambda value: isinstance(value, bool),
             lambda cell: {"true": True, "false": False}.get(cell, cell), False, False)
-COUNT = Kind("a whole number, 0 or more",
-             lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= 0,
-             lambda cell: int(cell) if re.fullmatch("[0-9]{1,18}", cell) else cell, None, False)
-DEGREE = Kind("a whole number from 1 on", lambda value: COUNT.accepts(value) and value >= 1,
-              COUNT.of_text, 1)
+COUNT, SIZE = whole_number(0), whole_number(1)
 POSITIVE = number("a number above 0", lambda x: x > 0)
 NOT_NEGATIVE = number("a number, 0 or more", lambda x: x >= 0)
 FINITE = number("a number", lambda x: True)
@@ -115,46 +118,20 @@ TIMES = Kind("a list of numbers above 0", lambda value: isinstance(value, list) 
 SPLIT = Kind(f"peak_bytes and counted_bytes of {', '.join(OWNERS)}", is_split, empty=None)
 WORDS = Kind("an object of texts", lambda value: isinstance(value, dict) and all(
     map(is_text, value.values())), empty=None)
+# Of bench/records/record.hpp; figures ask no field of another kind.
+KINDS = {"name": NAME, "text": TEXT, "flag": FLAG, "count": COUNT, "size": SIZE, "number": FINITE,
+         "amount": NOT_NEGATIVE, "positive": POSITIVE, "fraction": SHARE, "times": TIMES,
+         "by_owner": SPLIT, "words_by_word": WORDS}
 
-# From bench/records/record_fields.def; results/README.md explains them.
-FIELDS: list[dict] = json.loads(
-    Path(__file__).with_name("record_fields.json").read_text(encoding="utf-8"))
-# Fields that are shown or quoted are numbers ...
-NUMBERS = [f["name"] for f in FIELDS if not isinstance(f["empty"], list)
-           and (f["label"] or (f["unit"] and (f["nightly"] or f["column"])))]
-# ... and those that figures use have a stricter kind.
-KINDS = (
-    (NAME, "mesh scene method general_name family"),
-    (TEXT, "preconditioner program status_reason parameters scene_group knob"),
-    (FLAG, "iterative in_paper in_displacements precision_reached noisy tuning_cut "
-           "memory_counts_differ"),
-    (COUNT, "n_phi n_f n_c threads repetitions load_steps noise_attempts adapt_level n_stick n_slip"),
-    (DEGREE, "degree"),  # of the stresses; those of P2 have degree 1, of P3 degree 2
-    (POSITIVE, "area_mm2 width_mm height_mm time_s noise_kernel_s busy_kernel_s peak_heap_bytes "
-               "peak_rss_bytes extrapolated_time_s target_error adapt_time_s"),
-    (NOT_NEGATIVE, "contact_length_mm time_mad_s time_once_s time_per_load_s assembly_s "
-                   "stage_contact_s stage_check_s noise_share tuning_s tuning_budget_s "
-                   "memory_count_ratio contact_iterations newton_steps linear_iterations "
-                   "uzawa_iterations error_stress error_force error_estimate reference_error "
-                   "error_discretisation error_total condition_estimate knob_value"),
-    (SHARE, "precision retry_noisy done_fraction"),
-    (TIMES, "samples_s noise_kernel_samples_s"),  # in records.jsonl only
-    (SPLIT, "memory_by_owner"),
-    (WORDS, "context"),
-    (one_of(STOPS, may_be_empty=False), "stop"),
-    (one_of(STATUSES, may_be_empty=False), "status"),
-    (one_of(CONTACT_SOLVERS), "contact_solver"),
-    (one_of(STUDIES), "study"),
-    (one_of(POINTS), "points"),
-    (one_of(OUTCOMES), "outcome"),
-    (one_of(STATUSES), "claimed_status"))
-OF_NAME = {name: kind for kind, names in KINDS for name in names.split()}
-KEYS: dict[str, Kind] = OF_NAME | {name: FINITE for name in NUMBERS if name not in OF_NAME}
+# In every row that figures show.
+FILLED = ("mesh", "scene", "method", "general_name", "family", "iterative", "in_paper",
+          "in_displacements", "stop", "status", "n_phi", "n_f", "n_c", "threads", "repetitions")
 # Required by the figures.
-NEEDED = ("mesh", "scene", "method", "general_name", "family", "preconditioner", "iterative",
-          "in_paper", "in_displacements", "stop", "status", "status_reason", "n_phi", "n_f", "n_c",
-          "threads", "repetitions", "time_s", "tuning_s", "peak_heap_bytes", "done_fraction",
-          "extrapolated_time_s", "error_force")
+NEEDED = (*FILLED, "preconditioner", "status_reason", "time_s", "tuning_s", "peak_heap_bytes",
+          "done_fraction", "extrapolated_time_s", "error_force")
+KEYS: dict[str, Kind] = {
+    name: replace(kind, may_be_empty=name not in FILLED) for name, field in FIELDS.items()
+    if (kind := KINDS.get(field["kind"]) or (one_of(words_of(name)) if words_of(name) else None))}
 IDENTITY = ["mesh", "scene", "method", "stop", "contact_solver", "study", "knob", "knob_value"]
 OF_STUDY = {  # also required in rows of a study, by its points or its name
     ("points", "accuracy"): ("outcome", "knob", "knob_value", "error_stress",
@@ -274,10 +251,11 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
 
 
 def with_derived(table: pd.DataFrame) -> pd.DataFrame:
-    """Adds body and look; older records have neither general_name nor family, which follow from method."""
+    """Adds body and look; older records have no general_name, family and degree."""
     general = table.general_name.where(table.general_name != "", table.method)
     family = table.family.where(table.family != "", general.str.partition(":")[0])
-    return with_looks(with_bodies(table.assign(general_name=general, family=family)))
+    degree = table.degree.where(table.degree.notna(), 1)
+    return with_looks(with_bodies(table.assign(general_name=general, family=family, degree=degree)))
 
 
 def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]]:

@@ -9,7 +9,7 @@ from operator import attrgetter
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
 
-from records import Row
+from records import FIELDS, Row
 from selection import grouped
 
 Column = str | tuple[str, Callable[[object], object]]  # an attribute, or a name and what it is
@@ -42,6 +42,13 @@ def cell(value: object) -> object:
     if isinstance(value, str) and value[:1] in tuple("=+-@'"):
         return "'" + value
     return value
+
+
+def axis_of(key: str) -> str:
+    """peak_heap_bytes -> peak heap, MiB."""
+    field = FIELDS[key]
+    unit = {"1": "", "B": "MiB"}.get(field["unit"], field["unit"])
+    return ", ".join(filter(None, (field["label"], unit)))
 
 
 def short(value: float) -> str:

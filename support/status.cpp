@@ -26,9 +26,7 @@ bool has_answer(Status status) {
 }
 
 std::string_view name_of(Stop stop) { return stop == Stop::paper ? "paper" : "target"; }
-std::optional<Stop> stop_of(std::string_view name) {
-  return word_of(std::array{Stop::target, Stop::paper}, name);
-}
+std::optional<Stop> stop_of(std::string_view name) { return word_of(all_stops, name); }
 
 std::string_view name_of(ContactSolver solver) {
   constexpr std::array<std::string_view, 4> names = {"newton", "gauss-seidel", "anderson", "admm"};

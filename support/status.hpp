@@ -38,6 +38,7 @@ bool has_answer(Status status);
 
 // target: the tolerance is tightened until the method's own estimate is below the target.
 enum class Stop { target, paper };
+inline constexpr std::array<Stop, 2> all_stops = {Stop::target, Stop::paper};
 std::string_view name_of(Stop stop);  // "paper"
 std::optional<Stop> stop_of(std::string_view name);
 

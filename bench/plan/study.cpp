@@ -1,11 +1,11 @@
 #include "bench/plan/study.hpp"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "bench/records/case_name.hpp"
 #include "bench/records/json_value.hpp"
+#include "bench/records/record.hpp"
 #include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
 #include "support/data_folder.hpp"
@@ -44,8 +44,7 @@ std::vector<std::filesystem::path> json_files(const std::filesystem::path& folde
 }  // namespace
 
 std::string_view name_of(Study::Points points) {
-  constexpr std::array<std::string_view, 4> names = {"", "accuracy", "contact", "threads"};
-  return names[static_cast<std::size_t>(points)];
+  return points == Study::Points::one ? "" : all_points[static_cast<std::size_t>(points) - 1];
 }
 
 Study study_of(const std::filesystem::path& file) {

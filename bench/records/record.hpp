@@ -1,10 +1,12 @@
 // The record of a case, a line of records.jsonl. record_fields.def lists and explains its fields.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -22,15 +24,18 @@ using name = std::string;  // see is_name()
 using text = std::string;
 using flag = bool;
 using count = std::optional<std::int64_t>;
+using size = std::optional<std::int64_t>;  // ≥ 1
 inline constexpr std::int64_t most_count = std::int64_t{1} << 60;
 using number = std::optional<double>;
 using amount = std::optional<double>;    // ≥ 0
-using time = std::optional<double>;      // > 0
+using positive = std::optional<double>;  // > 0
 using fraction = std::optional<double>;  // 0 … 1
 using status = Status;
 using claim = std::optional<Status>;
 using stop = Stop;  // missing in older records: target
 using contact = std::optional<ContactSolver>;
+using outcome = std::string;  // of all_outcomes
+using points = std::string;   // of all_points
 using times = std::vector<double>;
 using stage_times = std::vector<std::map<std::string, double>>;  // per run: stage → seconds
 using words = std::vector<std::string>;
@@ -39,13 +44,21 @@ using steps = std::vector<StepResult>;
 // JSON of a certain shape, or null:
 using object = Json;
 using wholes_by_word = Json;
-using wholes_by_two_words = Json;
+using by_owner = Json;
 using texts_by_word = Json;
 using numbers_by_word = Json;
 using grid = Json;
 using contact_ends = Json;
 using attempts = Json;
 }  // namespace field_kind
+
+// In the order of figures' keys.
+inline constexpr std::array<std::string_view, 13> all_outcomes = {
+    "ok",        "other_solution", "inaccurate",    "unstressed", "not_converged",
+    "breakdown", "unverified",     "wrong_success", "timeout",    "out_of_memory",
+    "crashed",   "machine_fault",  "skipped"};
+// The cases of each method in a study, in the order of Study::Points; of one case: none.
+inline constexpr std::array<std::string_view, 3> all_points = {"accuracy", "contact", "threads"};
 
 // A status, and the reason of what is not ok or a remark on what is.
 struct Verdict {
@@ -96,11 +109,13 @@ enum FieldUse : unsigned {
 };
 
 struct Field {
+  const char* kind;  // of field_kind
   const char* name;
-  const char* unit;     // "": none; "1": a ratio
-  unsigned use;         // FieldUse
-  const char* label;    // of its series on the page; "": no series
-  const char* meaning;  // Markdown, one line
+  const char* unit;                       // "": none; "1": a ratio
+  unsigned use;                           // FieldUse
+  const char* label;                      // in figures; nightly fields with one have a series
+  const char* meaning;                    // Markdown, one line
+  const std::vector<std::string>& words;  // that it takes; empty: any
   Json (*value)(const Record& record);
   void (*clear)(Record& record);  // restores the default
   // Throws RecordError, which begins with `place` and `key`.

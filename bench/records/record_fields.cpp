@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "bench/records/record.hpp"
+#include "support/memory_owner.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
@@ -69,18 +70,24 @@ bool is_list(const Json& value) { return value.is_array(); }
 bool is_whole(const Json& value) { return value.is_number_integer(); }
 bool is_number(const Json& value) { return value.is_number(); }
 bool is_amount(const Json& value) { return value.is_number() && value.get<double>() >= 0; }
-bool is_time(const Json& value) { return value.is_number() && value.get<double>() > 0; }
+bool is_positive(const Json& value) { return value.is_number() && value.get<double>() > 0; }
 bool is_fraction(const Json& value) { return is_amount(value) && value.get<double>() <= 1; }
 bool is_count(const Json& value) {
   return is_amount(value) && value.get<double>() <= field_kind::most_count &&
          value.get<double>() == std::floor(value.get<double>());
 }
+bool is_size(const Json& value) { return is_count(value) && value.get<double>() >= 1; }
 bool is_name_of_something(const Json& value) {
   return value.is_string() && is_name(value.get_ref<const std::string&>());
 }
 template <auto named>
 bool is_word(const Json& value) {
   return value.is_string() && named(value.get_ref<const std::string&>()).has_value();
+}
+template <const auto& words>
+bool is_one_of(const Json& value) {
+  return value.is_string() &&
+         std::ranges::find(words, value.get_ref<const std::string&>()) != words.end();
 }
 template <Shape shape>
 bool is_or_null(const Json& value) {
@@ -150,9 +157,16 @@ struct Rule {
   std::string allowed;
   Shape accepts;
   bool is_required = false;
+  std::vector<std::string> words = {};
 };
-const std::string status_words = fmt::format("{}", fmt::join(names_of(all_statuses), ", "));
-const std::string solver_words = fmt::format("{}", fmt::join(names_of(all_contact_solvers), ", "));
+Rule word_of(const std::vector<std::string>& words, Shape accepts, bool is_required = false) {
+  return {fmt::format("{}{}", fmt::join(words, ", "), is_required ? "" : ", null"), accepts,
+          is_required, words};
+}
+template <typename Words>
+std::vector<std::string> texts(const Words& words) {
+  return {words.begin(), words.end()};
+}
 
 namespace rules {
 const Rule name{"a text that is not empty, without / and control characters", is_name_of_something,
@@ -160,22 +174,26 @@ const Rule name{"a text that is not empty, without / and control characters", is
 const Rule text{"a text, null", is_text};
 const Rule flag{"true, false, null", is_flag};
 const Rule count{"a whole number from 0 to 2^60, null", is_count};
+const Rule size{"a whole number from 1 to 2^60, null", is_size};
 const Rule number{"a number, null", is_number};
 const Rule amount{"a number >= 0, null", is_amount};
-const Rule time{"a number > 0, null", is_time};
+const Rule positive{"a number > 0, null", is_positive};
 const Rule fraction{"a number from 0 to 1, null", is_fraction};
-const Rule status{status_words, is_word<status_of>, true};
-const Rule claim{status_words, is_word<status_of>};
-const Rule stop{"target, paper, null", is_word<stop_of>};
-const Rule contact{solver_words + ", null", is_word<contact_solver_of>};
+const Rule status = word_of(names_of(all_statuses), is_word<status_of>, true);
+const Rule claim = word_of(names_of(all_statuses), is_word<status_of>);
+const Rule stop = word_of(names_of(all_stops), is_word<stop_of>);
+const Rule contact = word_of(names_of(all_contact_solvers), is_word<contact_solver_of>);
+const Rule outcome = word_of(texts(all_outcomes), is_one_of<all_outcomes>);
+const Rule points = word_of(texts(all_points), is_one_of<all_points>);
 const Rule times{"a list of numbers > 0", is_list};
 const Rule stage_times{"a list of objects of numbers", is_list_of<is_object_of<is_number>>};
 const Rule words{"a list of texts", is_list_of<is_text>};
 const Rule words_by_word{"an object of texts", is_object_of<is_text>};
 const Rule object{"an object, null", is_object};
 const Rule wholes_by_word{"an object of whole numbers, null", is_object_of<is_whole>};
-const Rule wholes_by_two_words{"an object of objects of whole numbers, null",
-                               is_object_of<is_object_of<is_or_null<is_whole>>>};
+const Rule by_owner{"an object of objects of whole numbers, null",
+                    is_object_of<is_object_of<is_or_null<is_whole>>>, false,
+                    names_of(all_memory_owners)};
 const Rule texts_by_word{"an object of texts, null", is_object_of<is_text>};
 const Rule numbers_by_word{"an object of lists of numbers, null",
                            is_object_of<is_list_of<number_or_null>>};
@@ -203,7 +221,7 @@ void read(const Json& value, const std::string& place, const char* key, Record& 
   };
   check(rule.accepts(value), value, rule.allowed);
   if constexpr (&rule == &rules::times)
-    for (const Json& time : value) check(is_time(time), time, "numbers > 0");
+    for (const Json& time : value) check(is_positive(time), time, "numbers > 0");
   convert(value, record.*member);
 }
 
@@ -212,11 +230,13 @@ void read(const Json& value, const std::string& place, const char* key, Record& 
 const std::vector<Field>& record_fields() {
   static const std::vector<Field> fields = {
 #define FIELD(kind, name, unit, use, source, label, meaning) \
-  {#name,                                                    \
+  {#kind,                                                    \
+   #name,                                                    \
    unit,                                                     \
    use,                                                      \
    label,                                                    \
    meaning,                                                  \
+   rules::kind.words,                                        \
    value_of<&Record::name>,                                  \
    [](Record& record) { record.name = Record().name; },      \
    read<rules::kind, &Record::name>},

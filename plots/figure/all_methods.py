@@ -12,12 +12,10 @@ from drawing import (MARGIN, MATH, PAGE_WIDTH, TYPE, Drawing, axes_at, error_flo
 from labels import LEFT, NAMES_APART, draw_names, mark_meshes
 from records import Row
 from selection import by_body, by_method, exponent, of_scene, sharing_axes, value_of
-from words import CASE, csv_of, lacking, plain, threads, unseen, width_of
+from words import CASE, axis_of, csv_of, lacking, plain, threads, unseen, width_of
 
 TOP, BETWEEN, LOWEST, BOTTOM = 1.15, 0.12, 2.5, 0.5  # inches; LOWEST: a panel
-PANELS = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB",
-          "error_force": "error of the contact forces"}
-NAMES = {"time_s": "time", "peak_heap_bytes": "peak heap", "error_force": PANELS["error_force"]}
+PANELS = {"time_s": "time", "peak_heap_bytes": "peak heap", "error_force": axis_of("error_force")}
 POWER = 0.6  # inches, for an exponent
 
 
@@ -66,7 +64,7 @@ def draw(rows: list[Row]) -> Figure | str:
         f"between {between}. Errors of 0 are at the lower edge.",
         *unseen(rows, [row for own in drawn for row in own], lambda row: "one size"),
         lacking([row for own in drawn for row in own],
-                {NAMES[column]: partial(value_of, key=column) for column in PANELS}))
+                {name: partial(value_of, key=column) for column, name in PANELS.items()}))
     names = max(width_of(method, TYPE) / 72 for lines in blocks for method in lines)
     for k, (lines, own) in enumerate(zip(blocks, drawn)):
         if len(blocks) > 1:
@@ -93,7 +91,7 @@ def draw_panel(axes: Axes, column: str, lines: dict[str, list[Row]]) -> None:
         return max(value_of(row, column), floor)
 
     sizes = [row.n_phi for line in lines.values() for row in line]
-    log_log(axes, ylabel=PANELS[column], ylim=log_limits(map(shown, rows)),
+    log_log(axes, ylabel=axis_of(column), ylim=log_limits(map(shown, rows)),
             xlim=(min(sizes) / 1.3, 1.3 * max(sizes)))
     axes.grid(which="major")
     for line in known.values():

@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from drawing import PAGE_WIDTH, TYPE, Drawing, panel_at, sheet
-from records import OWNERS, Row
+from records import Row
 from selection import by_body, by_mesh, compared, grouped, of_scene
 from words import CASE, columns_of, csv_of, left_out, mebibytes, plain, threads, width_of
 
@@ -13,7 +13,7 @@ LEFT, RIGHT, TOP, BOTTOM, BAR = 1.4, 1.75, 0.92, 0.45, 0.27  # inches
 BETWEEN = 0.75  # the axes of two meshes
 ROOM = 24  # bars
 MIB = 2**20
-# Okabe and Ito's colours, and what they stand for.
+# Okabe and Ito's colours, and what they stand for, from what every method has to what few have.
 LOOKS = {"blocks": ("#999999", "blocks S, C, q"),
          "system_matrix": ("#000000", "own system matrix"),
          "factor": ("#0072B2", "factor"),
@@ -63,7 +63,7 @@ def counted(row: Row) -> int:
 def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     if not rows:
         return "no mesh has two methods whose heap was split"
-    used = [owner for owner in OWNERS if any(peak_of(row, owner) > 0 for row in rows)]
+    used = [owner for owner in LOOKS if any(peak_of(row, owner) > 0 for row in rows)]
     meshes = grouped(rows, lambda row: row.mesh)
     sizes = [f"{mesh}, n_φ = {own[0].n_phi}" for mesh, own in meshes.items()]
     differ = [row.method + (f" on {row.mesh}" if len(meshes) > 1 else "") for row in rows

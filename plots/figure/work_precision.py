@@ -9,13 +9,13 @@ from labels import Labels
 from records import Row
 from selection import (by_mesh, front, given, grouped, is_paper_stop, of_scene, order,
                        value_of)
-from words import CASE, KNOB, csv_of, lacking, percent, short, threads, unseen
+from words import CASE, KNOB, axis_of, csv_of, lacking, percent, short, threads, unseen
 
 LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 0.72, 0.35, (4.75, 2.45), 5.0, 0.28, 0.5  # inches
 HIGHEST = 1e3  # errors above are drawn here
 SIZE = 4.5
 GREY = "0.78"  # curves of parameters, behind the best of their family
-AXES = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB"}
+AXES = ("time_s", "peak_heap_bytes")
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
@@ -97,11 +97,11 @@ def draw_panel(axes: Axes, column: str, rows: list[Row], floor: float, target: f
 
     curves = curves_of(rows)
     highest = min(max([row.error_force for row in rows] + [target]), HIGHEST)
-    log_log(axes, xlabel=AXES[column], ylim=(floor / 2, 4 * highest),
+    log_log(axes, xlabel=axis_of(column), ylim=(floor / 2, 4 * highest),
             xlim=log_limits([value_of(row, column) for row in rows], 1.7))
     axes.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)), zorder=2)
     first = column == "time_s"
-    axes.set_ylabel("relative error of the contact forces" if first else "")
+    axes.set_ylabel(f"relative {axis_of('error_force')}" if first else "")
     axes.tick_params(labelleft=first)
     labels = Labels(axes)
     labels.avoid(axes.get_xlim(), [target] * 2)

@@ -55,7 +55,7 @@ def of_mesh(mesh: str) -> dict[str, object]:
 def case(mesh: str, method: str, **cells: object) -> dict[str, object]:
     row = dict.fromkeys(COLUMNS, "") | of_method(method) | of_mesh(mesh)
     row |= dict(scene="default", stop="target", status="ok", outcome="ok", threads=1,
-                repetitions=5, time_s=0.5, peak_heap_bytes=2.0**22, error_force=1e-9,
+                repetitions=5, time_s=0.5, peak_heap_bytes=2**22, error_force=1e-9,
                 error_stress=1e-10, target_error=1e-6)
     return row | cells
 
@@ -88,7 +88,7 @@ def point(mesh: str, method: str, time_s: float, error: float, **cells: object) 
     return case(mesh, method, study="error", time_s=time_s, error_force=error, status=outcome
                 if outcome != "wrong_success" else "inaccurate", outcome=outcome,
                 error_stress=error / 3, error_discretisation=floor, error_total=floor + error / 3,
-                peak_heap_bytes=30.0 * of_mesh(mesh)["n_phi"]**1.3 * (2 + time_s**0.3)) | cells
+                peak_heap_bytes=int(30 * of_mesh(mesh)["n_phi"]**1.3 * (2 + time_s**0.3))) | cells
 
 
 def error_study(meshes: list[str], sweep: bool = True) -> list[dict[str, object]]:
@@ -153,7 +153,7 @@ def sizes_to_the_limit() -> list[dict[str, object]]:
             if n_phi < most:
                 rows.append(case(mesh, method, n_phi=n_phi, error_force=1e-15 * n_phi * (1 + k),
                                  time_s=1e-8 * n_phi ** (1.2 + 0.1 * k),
-                                 peak_heap_bytes=600 * n_phi ** (1.1 + 0.03 * k)))
+                                 peak_heap_bytes=int(600 * n_phi ** (1.1 + 0.03 * k))))
     return rows
 
 

@@ -55,9 +55,9 @@ class GrowthTest(unittest.TestCase):
     def test_another_program_has_its_memory_elsewhere(self) -> None:
         ours, other = made_up.read(
             refined("HYBRID", 1, range(1)) +
-            refined("EXTERNAL:x", 1, range(1), program="x 1", peak_rss_bytes=2.0**30))
-        self.assertEqual(growth_figure.memory_of(ours), 2.0**22)
-        self.assertEqual(growth_figure.memory_of(other), 2.0**30)
+            refined("EXTERNAL:x", 1, range(1), program="x 1", peak_rss_bytes=2**30))
+        self.assertEqual(growth_figure.memory_of(ours), 2**22)
+        self.assertEqual(growth_figure.memory_of(other), 2**30)
 
     def test_an_error_without_a_reference_is_the_methods_word(self) -> None:
         drawing, = growth_figure.drawings(made_up.read(refined("HYBRID:CG", 1, range(5))))

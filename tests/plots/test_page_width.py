@@ -47,7 +47,7 @@ def of_all_kinds() -> list[dict]:
              for stop, slower in (("target", 5), ("paper", 1))
              for mesh, time_s, error in (("Mesh0", 0.01, 0.04), ("Mesh1", 0.05, 0.02))]
     rows += [made_up.case(f"Mesh3+refine{k}", method, n_phi=6287 * 4**k, time_s=0.01 * 5**k * m,
-                          peak_heap_bytes=2.0**23 * 4.2**k, linear_iterations=40 + k,
+                          peak_heap_bytes=int(2**23 * 4.2**k), linear_iterations=40 + k,
                           error_stress="" if k == 4 else 1e-12, error_estimate=1e-8)
              for k in range(1, 5) for m, method in enumerate(("HYBRID", "HYBRID:CG"), 1)]
     rows += [made_up.case(mesh, "3STEPD", study="contact", scene=scene, contact_solver=solver,

@@ -26,7 +26,7 @@ ALIASES = {general: alias for alias, general in made_up.SEVEN.items()}
 def power_laws(**cells: object) -> list[dict[str, object]]:
     """The nine compared methods on all meshes; n_phi^POWER."""
     return [case(mesh, method, time_s=1e-7 * size.n_phi**POWER[method],
-                 peak_heap_bytes=50 * size.n_phi**1.25, **cells)
+                 peak_heap_bytes=int(50 * size.n_phi**1.25), **cells)
             for mesh, size in SIZES.items() for method in POWER]
 
 

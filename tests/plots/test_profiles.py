@@ -61,7 +61,7 @@ class ProfilesTest(unittest.TestCase):
     def test_memory_has_the_same_cases(self) -> None:
         cases = lines()
         for case in cases:
-            case["peak_heap_bytes"] = 100.0 if case["method"] == "HYBRID" else 300.0
+            case["peak_heap_bytes"] = 100 if case["method"] == "HYBRID" else 300
         rows = made_up.read_lines(cases)
         self.assertEqual(self.shares(rows, "performance", "peak_heap_bytes", "HYBRID", 1), 2 / 4)
         self.assertEqual(self.shares(rows, "performance", "peak_heap_bytes", "BLIND", 1), 2 / 4)

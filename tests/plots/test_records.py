@@ -97,8 +97,7 @@ class ReaderTest(FolderTest):
         self.refuse_cell("error_force", "-1e-9", "a number, 0 or more, or empty")
         self.refuse_cell("done_fraction", "1.2", "a number from 0 to 1, or empty")
         self.refuse_cell("upper_bound_Nmm", "high", "a number, or empty")
-        self.refuse_cell("study", "speed", "one of adapted, check, contact, error, load-steps, scaling, "
-                         "stability, or empty")
+        self.refuse_cell("peak_heap_bytes", "0", "a whole number, 1 or more, or empty")
         self.refuse_cell("outcome", "", "a value in the study 'error'",
                          made_up.error_study(["Mesh0"])[0])
 
