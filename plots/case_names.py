@@ -1,33 +1,22 @@
-"""What a case is called wherever it is shown or filed, as bench/records/case_name.hpp has it."""
-import re
+"""What a case is called wherever it is shown or filed: bench/records/case_name.hpp makes the names."""
 from collections.abc import Mapping
 from urllib.parse import unquote
 
 
-def other_contact_solver(case: Mapping) -> str:
-    """The solver of the contact law, where it is not the one that the case implies."""
-    sweeps = case.get("stop") == "paper" or case.get("knob") == "contact sweeps"
-    solver = case.get("contact_solver") or ""
-    return solver if solver != ("gauss-seidel" if sweeps else "newton") else ""
+def case_of_file(stem: str) -> str:
+    """Mesh0--default--SYMMLQ+DTIC3 -> Mesh0/default/SYMMLQ:DTIC3."""
+    return "/".join(unquote(part.replace("+", ":").replace("~", "+")) for part in stem.split("--"))
 
 
-def case_name(case: Mapping) -> str:
-    """MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper][/contact=SOLVER] of a record."""
-    name = "/".join(case[key] for key in ("mesh", "scene", "method"))
-    if case.get("study"):
-        name += f"/study={case['study']}"
-    if case.get("knob_value") not in (None, ""):
-        value = repr(float(case["knob_value"])).removesuffix(".0")
-        name += f"/{case['knob'].replace(' ', '_')}={value}"
-    name += "/stop=paper" if case.get("stop") == "paper" else ""
-    solver = other_contact_solver(case)
-    return name + (f"/contact={solver}" if solver else "")
-
-
-def words_of_file(stem: str) -> str:
-    return ", ".join(unquote(part.replace("+", ":").replace("~", "+")) for part in stem.split("--"))
-
-
-def file_of(name: str) -> str:
-    name = re.sub(r"[%~]|^\+|(?<![^-/])-|-(?![^-/])", lambda found: f"%{ord(found[0]):02X}", name)
-    return name.replace("/", "--").replace("+", "~").replace(":", "+")
+def case_of_older(record: Mapping) -> str:
+    """Of a record that does not name its case."""
+    name = "/".join(record[key] for key in ("mesh", "scene", "method"))
+    if record["study"]:
+        name += f"/study={record['study']}"
+    if record["knob_value"] is not None:
+        value = repr(float(record["knob_value"])).removesuffix(".0")
+        name += f"/{record['knob'].replace(' ', '_')}={value}"
+    is_paper = record["stop"] == "paper"
+    implied = "gauss-seidel" if is_paper or record["knob"] == "contact sweeps" else "newton"
+    solver = record["contact_solver"] or implied
+    return name + "/stop=paper" * is_paper + f"/contact={solver}" * (solver != implied)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from case_names import case_name, file_of
+from case_names import case_of_file
 from records import RecordsError, cells_of, lines_file, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
@@ -252,11 +252,17 @@ def read_table(path: Path, header: str,
 
 
 def recorded(results: Path) -> dict[str, dict]:
-    """Name of a case's files -> its record; empty without records."""
+    """Name of a case -> its record; empty without records."""
     if not lines_file(results) and not (results / "results.csv").is_file():
         return {}
     table = read_run(results, needed=("mesh", "scene", "method", "n_phi"))
-    return {file_of(case_name(case)): case for case in table.to_dict("records")}
+    return {case["case_name"]: case for case in table.to_dict("records")}
+
+
+def record_of(records: dict[str, dict], name: str) -> dict:
+    """Of the files of that name; without a record the mesh is read from it."""
+    case = case_of_file(name)
+    return records.get(case, {"mesh": case.partition("/")[0], "n_phi": None})
 
 
 def read_error_share(results: Path, s: Fields) -> np.ndarray:
@@ -286,8 +292,7 @@ def names_in(results: Path, part: str = "stress") -> list[str]:
 
 
 def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
-    """One solution; throws RecordsError. The three files must describe the same body. Without a
-    record of that name the mesh is read from it."""
+    """One solution; throws RecordsError. The three files must describe the same body."""
     path = {part: results / "fields" / f"{name}.{part}.csv"
             for part in ("stress", "contact", "boundary")}
     rows, _ = read_table(path["stress"], STRESS)
@@ -313,7 +318,7 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
     if of_edges is None or not np.array_equal(of_edges[:, [0, -1], :2], contact):
         raise RecordsError(f"{path['contact']}: {len(points)} points; expected start and end of "
                           f"each of the {len(contact)} contact edges of {path['boundary'].name}")
-    record = records.get(name, {"mesh": name.partition("-")[0], "n_phi": None})
+    record = record_of(records, name)
     m = of_edges.shape[1]
     lengths = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None]
     return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,

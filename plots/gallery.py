@@ -32,13 +32,13 @@ from matplotlib.figure import Figure
 
 import command
 import drawing
-from case_names import words_of_file
+from case_names import case_of_file
 from drawing import PAGE_WIDTH, axes_at, bar_below, text_at, for_papers, write_small_png
 from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
                            largest_load, scales_of)
 from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_cut, is_tall,
                          label_body, layout_of, slenderness, view_of, width_of)
-from fields import Fields, names_in, read_error_share, read_fields, recorded
+from fields import Fields, names_in, read_error_share, read_fields, record_of, recorded
 from load_path import LoadPath, read_path, table_of
 from load_path_drawing import FIXED, draw_path, frames, frames_of, write_gif
 from words import csv_of, percent, plain, width_of as words_width
@@ -95,6 +95,10 @@ def compose(rows: list[list[Fields]]) -> Figure:
         top -= height
     draw_legend(figure, scales, shown)
     return figure
+
+
+def words_of_file(name: str) -> str:
+    return case_of_file(name).replace("/", ", ")
 
 
 def heading(solutions: list[Fields], scales: Scales) -> list[str]:
@@ -278,9 +282,9 @@ def draw(args: argparse.Namespace) -> None:
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
     names, records = names_in(args.results), recorded(args.results)
-    if others := [name for name in names if records and name not in records]:
+    if others := [name for name in names if records and case_of_file(name) not in records]:
         print(f"left out, fields of no recorded case: {', '.join(others)}")
-        names = [name for name in names if name in records]
+        names = [name for name in names if name not in others]
     chosen = choose(names)
     singles = names if args.each or not chosen else []
     with_map = [name for name in names_in(args.results, "error") if name in names]
@@ -311,7 +315,7 @@ def draw(args: argparse.Namespace) -> None:
         save_composed(made, f"fields_{name}", [[solutions[name]]], args.vector, "png")
     for picture, (names_of_levels, titles) in levels.items():
         if all(maps[name][1].any() for name in names_of_levels):
-            shown = [(*maps[name], records.get(name, {}).get("error_total")) for name in names_of_levels]
+            shown = [(*maps[name], record_of(records, name).get("error_total")) for name in names_of_levels]
             figure = draw_levels(shown, titles)
             save(made, picture, levels_table(shown), figure if args.vector else None,
                  png=partial(write_small_png, figure, LEVELS_DPI, **SMALL_PNG))
@@ -334,7 +338,7 @@ def is_newer(file: Path, than: Path) -> bool:
 
 def read_step(results: Path, name: str, step: int, records: dict[str, dict]) -> Fields:
     """step: from 0."""
-    record = records.get(name, {"mesh": name.partition("--")[0], "n_phi": None})
+    record = record_of(records, name)
     return replace(read_fields(results, f"{name}.steps/{step + 1:04}", {}), name=name,
                    mesh=record["mesh"], n_phi=record["n_phi"])
 

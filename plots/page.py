@@ -23,7 +23,6 @@ from pathlib import Path
 import pandas as pd
 
 import command
-from case_names import case_name
 from messages import escaped
 from records import (FIELDS, FINITE, FLAG, KEYS, NAME, TEXT, Kind, RecordsError, checked, is_text,
                      json_of, lines_file, one_of, read, text_of, with_derived)
@@ -153,8 +152,7 @@ def head_of(key: str) -> str:
 
 def named(cases: pd.DataFrame) -> pd.DataFrame:
     cases = with_derived(cases)
-    return cases.assign(name=[case_name(case) for case in cases.to_dict("records")],
-                        time_mad_s=cases.time_mad_s.where(cases.repetitions != 1, None))
+    return cases.assign(name=cases.case_name, time_mad_s=cases.time_mad_s.where(cases.repetitions != 1, None))
 
 
 def is_there(value: object) -> bool:

@@ -38,7 +38,6 @@ from pathlib import Path
 
 import pandas as pd
 
-from case_names import case_name
 from command import replace_all, run, text_writer
 from records import KEYS, RecordsError, Row, read, rows_of
 from selection import grouped
@@ -257,7 +256,7 @@ HEADS = ("case", "n_phi", "time", "±", "unchecked", "heap", "error stress", "er
 def cells_of(row: Row) -> tuple[str, ...]:
     def number(value: float | None, show: str) -> str:
         return "-" if value is None else format(value, show)
-    return (case_name(vars(row)), str(row.n_phi), seconds(row.time_s),
+    return (row.case_name, str(row.n_phi), seconds(row.time_s),
             "n=1" if row.repetitions == 1 else seconds(row.time_mad_s or 0),
             seconds(row.time_s - (row.stage_check_s or 0)),
             number(value_of_row(row, "peak_heap_bytes"), ".1f") + " MiB",

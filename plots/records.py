@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from case_names import case_of_older
 from catalogue import Look, with_bodies, with_looks
 
 LONGEST_LINE, LONGEST_FILE = 2**24, 2**30  # characters; a file as in bench/records/record_reader.hpp
@@ -132,7 +133,6 @@ NEEDED = (*FILLED, "preconditioner", "status_reason", "time_s", "tuning_s", "pea
 KEYS: dict[str, Kind] = {
     name: replace(kind, may_be_empty=name not in FILLED) for name, field in FIELDS.items()
     if (kind := KINDS.get(field["kind"]) or (one_of(words_of(name)) if words_of(name) else None))}
-IDENTITY = ["mesh", "scene", "method", "stop", "contact_solver", "study", "knob", "knob_value"]
 OF_STUDY = {  # also required in rows of a study, by its points or its name
     ("points", "accuracy"): ("outcome", "knob", "knob_value", "error_stress",
                              "error_discretisation", "error_total"),
@@ -242,20 +242,22 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
             if name in needed:
                 raise RecordsError(f"{place(k)}: {name} is {shown(items[k].get(name))}, expected a "
                                    f"number above 0, since status is {table.status[k]}")
-    for k in table.index[table.duplicated(IDENTITY)]:
-        case = ", ".join(str(value) for value in table.loc[k, IDENTITY] if value not in ("", None))
-        same = table[IDENTITY].astype(str).eq(table.loc[k, IDENTITY].astype(str)).all(axis=1)
-        raise RecordsError(f"{place(k)}: the case {shown(case)} is that of line "
-                           f"{table.line[same.idxmax()]}; expected a row per case")
-    return with_derived(table)
+    table = with_derived(table)
+    for k in table.index[table.case_name.duplicated()]:
+        first = table.line[(table.case_name == table.case_name[k]).idxmax()]
+        raise RecordsError(f"{place(k)}: the case {shown(table.case_name[k])} is that of line {first}; "
+                           "expected a row per case")
+    return table
 
 
 def with_derived(table: pd.DataFrame) -> pd.DataFrame:
-    """Adds body and look; older records have no general_name, family and degree."""
+    """Adds body and look, and what older records lack."""
     general = table.general_name.where(table.general_name != "", table.method)
     family = table.family.where(table.family != "", general.str.partition(":")[0])
-    degree = table.degree.where(table.degree.notna(), 1)
-    return with_looks(with_bodies(table.assign(general_name=general, family=family, degree=degree)))
+    names = [row["case_name"] or case_of_older(row) for row in table.to_dict("records")]
+    return with_looks(with_bodies(table.assign(
+        general_name=general, family=family, degree=table.degree.where(table.degree.notna(), 1),
+        case_name=pd.Series(names, table.index, dtype=object))))
 
 
 def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]]:

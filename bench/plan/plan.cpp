@@ -106,6 +106,7 @@ Record blank_record(const Case& planned, const Limits& limits) {
   const std::string why = why_skipped(problem, method);
   record.conclude(why.empty() ? Verdict{Status::crashed, "the case did not run"}
                               : Verdict{Status::skipped, why});
+  record.case_name = planned.name().text();
   record.mesh = mesh_name_of(problem);
   if (body != nullptr) take_over(extent_of(body->mesh), record);
   describe(method, record);

@@ -6,7 +6,7 @@
 //   Mesh3/default/ALM/stop=paper
 //   Mesh0/default/SSKY/study=error/tolerance=0.01
 //
-// Parts in brackets are omitted if they are the default. plots/case_names.py has the same names.
+// Parts in brackets are omitted if they are the default. Record::case_name is the text.
 #pragma once
 
 #include <optional>

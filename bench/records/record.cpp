@@ -46,6 +46,7 @@ class RecordBuilder {
     if (record_.points.empty()) record_.points = points_of_older(record_.study);
     if (record_.family.empty())
       record_.family = record_.general_name.substr(0, record_.general_name.find(':'));
+    if (record_.case_name.empty()) record_.case_name = name_of(record_).text();
     return std::move(record_);
   }
 

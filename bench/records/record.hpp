@@ -137,7 +137,7 @@ struct RecordError : FileError {
 };
 
 // The inverse of to_json(). Ignores unknown keys; missing keys keep their defaults, except that
-// general_name and family, which older records lack, follow from the method's name. Throws
+// case_name, general_name and family, which older records lack, follow from other fields. Throws
 // RecordError, which begins with `place`.
 Record record_of(const Json& json, const std::string& place);
 // Equals record_of(json_of_text(text)), but uses less memory.

@@ -158,7 +158,7 @@ class GalleryTest(FolderTest):
         self.assert_png(self.figures / "adapted_meshes.png", 913)
         lines = (self.figures / "adapted_meshes.csv").read_text().splitlines()
         self.assertEqual([line.split(",")[:3] for line in lines],
-                         [["mesh", "n_phi", "triangles"], *([f"Mesh0~adapt{k}", "", "2"]
+                         [["mesh", "n_phi", "triangles"], *([f"Mesh0+adapt{k}", "", "2"]
                                                             for k in (0, 10, 11))])
 
     def test_the_last_levels_of_all_degrees_are_side_by_side(self) -> None:

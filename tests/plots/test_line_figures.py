@@ -162,5 +162,5 @@ class NoneTest(unittest.TestCase):
 
     def test_a_degree_that_cannot_be_is_refused(self) -> None:
         for degree in (0, 1.5, "two"):
-            with self.assertRaisesRegex(RecordsError, "degree is .*, expected a whole number from 1 on"):
+            with self.assertRaisesRegex(RecordsError, "degree is .*, expected a whole number, 1 or more"):
                 made_up.read([made_up.case("Mesh0", "HYBRID", degree=degree)])

@@ -8,10 +8,10 @@ import made_up  # finds plots
 
 import records
 from catalogue import MEASURES, catalogue_mesh
-from case_names import case_name, file_of
+from case_names import case_of_file
 from made_up import case, read
 from running import FolderTest
-from selection import compared, given, sharing_axes
+from selection import compared, given, has_other_solver, sharing_axes
 
 # As in tests/bench/records/case_name_test.cpp.
 SWEPT = "Mesh0/default/SYMMLQ:SSOR0.7,schur=sparse/study=error/contact_sweeps=1e-12/stop=paper"
@@ -129,7 +129,7 @@ class ReaderTest(FolderTest):
         self.assert_refused(f"{self.csv}:1: no columns method", "mesh, scene, method, general_name")
         row = case("Mesh0", "3STEPD")
         made_up.write(self.csv, [row, row])
-        self.assert_refused(f"{self.csv}:3: ", "'Mesh0, default, 3STEPD, target' is that of line 2")
+        self.assert_refused(f"{self.csv}:3: ", "'Mesh0/default/3STEPD' is that of line 2")
         lines = self.csv.read_text(encoding="utf-8").splitlines()
         for spoilt, count in ((lines[2].rsplit(",", 3)[0], -3), (lines[2] + ",1", 1)):
             self.csv.write_text("\n".join([*lines[:2], spoilt]), encoding="utf-8")
@@ -144,7 +144,7 @@ class ReaderTest(FolderTest):
         rows = [row for row in made_up.error_study(["Mesh0"]) if row["knob"] == "tolerance"]
         self.assertEqual(len(read(rows[:6])), 6)  # they differ in knob_value
         made_up.write(self.csv, [rows[0], rows[0]])
-        self.assert_refused(f"{self.csv}:3:", "SYMMLQ:DTIC6, target, error, tolerance, 0.1' is")
+        self.assert_refused(f"{self.csv}:3:", "SYMMLQ:DTIC6/study=error/tolerance=0.1' is")
 
     def test_columns_that_a_figure_cannot_do_without(self) -> None:
         for rows, column, part in (
@@ -229,18 +229,23 @@ class SelectionTest(unittest.TestCase):
 
 
 class CaseNamesTest(unittest.TestCase):
-    def test_the_parts_that_are_not_the_default(self) -> None:
-        case = dict(mesh="Mesh0", scene="default", method="HYBRID")
-        self.assertEqual(case_name(case), "Mesh0/default/HYBRID")
-        self.assertEqual(case_name(case | dict(stop="target", study="", knob="", knob_value=None)),
-                         "Mesh0/default/HYBRID")
-        case |= dict(method="SYMMLQ:SSOR0.7,schur=sparse", study="error", knob="contact sweeps",
-                     stop="paper")
-        self.assertEqual(case_name(case | dict(knob_value=1e-12)), SWEPT)
-        self.assertEqual(case_name(case | dict(knob_value="1e-12")), SWEPT)  # a cell of CSV
-        self.assertTrue(case_name(case | dict(knob_value=30.0)).endswith("_sweeps=30/stop=paper"))
+    def test_of_a_record_that_names_its_case(self) -> None:
+        row, = read([case("Mesh0", "P2", case_name="Mesh0/default/P2/contact=admm")])
+        self.assertEqual(row.case_name, "Mesh0/default/P2/contact=admm")
+        self.assertTrue(has_other_solver(row))
 
-    def test_files(self) -> None:
-        self.assertEqual(file_of(SWEPT), "Mesh0--default--SYMMLQ+SSOR0.7,schur=sparse--study=error--"
-                                         "contact_sweeps=1e-12--stop=paper")
-        self.assertEqual(file_of("-a-/b+--c%/d-e"), "%2Da%2D--b~%2D%2Dc%25--d-e")
+    def test_of_older_records(self) -> None:
+        def name(method: str, **cells: object) -> str:
+            return read([case("Mesh0", method, case_name="", **cells)])[0].case_name
+        self.assertEqual(name("HYBRID"), "Mesh0/default/HYBRID")
+        self.assertEqual(name("HYBRID", contact_solver="newton"), "Mesh0/default/HYBRID")
+        self.assertEqual(name("HYBRID", contact_solver="admm"), "Mesh0/default/HYBRID/contact=admm")
+        swept = dict(study="error", knob="contact sweeps", stop="paper", contact_solver="gauss-seidel",
+                     error_discretisation=0.1, error_total=0.1)
+        self.assertEqual(name("SYMMLQ:SSOR0.7,schur=sparse", knob_value=1e-12, **swept), SWEPT)
+        self.assertTrue(name("HYBRID", knob_value=30.0, **swept).endswith("_sweeps=30/stop=paper"))
+
+    def test_of_files(self) -> None:
+        self.assertEqual(case_of_file("Mesh0--default--SYMMLQ+SSOR0.7,schur=sparse--study=error--"
+                                      "contact_sweeps=1e-12--stop=paper"), SWEPT)
+        self.assertEqual(case_of_file("%2Da%2D--b~%2D%2Dc%25--d-e"), "-a-/b+--c%/d-e")

@@ -74,7 +74,7 @@ TEST(Record, CsvIsUnroundedQuotedAndEmptyWhereNothingApplies) {
   const auto newline = text.find('\n');
   EXPECT_EQ(text.substr(0, 18), "mesh,scene,method,");
   const std::string row = text.substr(newline + 1);
-  EXPECT_EQ(row.substr(0, 41), "\"a \"\"quoted\"\", mesh\",default,3STEPD,ok,,,");
+  EXPECT_EQ(row.substr(0, 42), "\"a \"\"quoted\"\", mesh\",default,3STEPD,,ok,,,");
   EXPECT_NE(row.find(",0.3333333333333333,"), std::string::npos);
   EXPECT_NE(row.find(",0.2,0.1,"), std::string::npos);  // median, minimum
   EXPECT_EQ(row.find("nan"), std::string::npos);
@@ -104,6 +104,7 @@ TEST(Record, ComesBackFromJson) {
   record.histories = {{"residual", {1, 0.1}}};
   record.context["date"] = "2026-11-21T11:28:12Z";
   record.general_name = record.family = "3STEPD";
+  record.case_name = name_of(record).text();
   const Json json = to_json(record);
   EXPECT_EQ(to_json(record_of(json, "here")), json);
   EXPECT_EQ(to_json(record_of_text(json_text(json), "here")), json);

@@ -1,7 +1,6 @@
 // `bench claims`: each claim on records made up for each verdict; which records are taken, what is
 // written, what is refused.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
