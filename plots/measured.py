@@ -9,7 +9,7 @@ from itertools import chain
 
 import numpy as np
 
-from records import NOT_NEGATIVE, Row
+from records import NOT_NEGATIVE, SHARE, Row
 from selection import grouped
 from words import counted, percent, span, targets
 
@@ -125,11 +125,17 @@ def intervals(again: list[Row]) -> Iterator[str]:
         yield (f"{listed_share(len(with_ends), again)} at least {FEWEST_FOR_INTERVAL} samples, and "
                "with them a 95 % confidence interval of the median from order statistics (Le Boudec "
                "2010, theorem 2.1), which covers what changes within a run, not between runs.")
-    for share, own in sorted({row.precision: [r for r in again if r.precision == row.precision]
-                              for row in again if row.precision}.items()):
-        yield (f"{listed_share(len(own), again, 'was', 'were')} repeated until both ends of that "
-               f"interval were within {percent(share)} of the median, or a limit was reached; "
-               f"{sum(row.precision_reached for row in own)} of {len(own)} became so precise.")
+    for asked, own in sorted(grouped(again, lambda row: context_of(row)["precision"]).items()):
+        share = SHARE.of_text(asked)
+        if SHARE.accepts(share):
+            yield (f"{listed_share(len(own), again, 'was', 'were')} repeated until both ends of that "
+                   f"interval were within {percent(share)} of the median, or a limit was reached; "
+                   f"{sum(is_known_to(share, row) for row in own)} of {len(own)} became so precise.")
+
+
+def is_known_to(share: float, row: Row) -> bool:
+    return row.time_ci_low_s is not None and max(
+        row.time_s - row.time_ci_low_s, row.time_ci_high_s - row.time_s) <= share * row.time_s
 
 
 def listed_share(count: int, of: list[Row], one: str = "has", many: str = "have") -> str:

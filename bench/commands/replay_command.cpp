@@ -120,7 +120,6 @@ Options options_of(const Record& record, const Context& context, std::filesystem
     asked.threads = run.thread_counts.back();
   }
   if (run.study.name.empty()) asked.contact = record.contact_solver;
-  limits.precision = record.precision;
   limits.retry_noisy = record.retry_noisy;
   limits.tuning_budget_s = record.tuning_budget_s;
   limits.interleave = context_word(context, "interleaved") == "yes";
@@ -128,6 +127,8 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   take(context, "max_repetitions", limits.max_repetitions);
   take(context, "timeout_s", limits.timeout_s);
   take(context, "long_case_s", limits.long_case_s);
+  if (!context_word(context, "precision").empty())
+    take(context, "precision", limits.precision.emplace());
   if (context_word(context, "memory_limit_bytes") != "none") {
     std::int64_t limit = 0;
     take(context, "memory_limit_bytes", limit);

@@ -32,8 +32,7 @@ using airybench::MemoryOwner;
 constexpr std::size_t always_granted = 64 * 1024;
 std::atomic<bool> limit_passed{false}, refused_by_machine{false};
 constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
-std::atomic<std::int64_t> live{0}, peak{0}, peak_ever{0}, lap_peak{0}, limit{no_limit},
-    backstop{no_limit};
+std::atomic<std::int64_t> live{0}, peak{0}, peak_ever{0}, limit{no_limit}, backstop{no_limit};
 std::atomic<std::int64_t> count{0}, given_out{0};
 
 using Counters = std::array<std::atomic<std::int64_t>, all_memory_owners.size()>;
@@ -72,7 +71,6 @@ void add(MemoryOwner owner, std::int64_t bytes) {
   const auto k = static_cast<std::size_t>(owner);
   raise(highest_of[k], live_of[k].fetch_add(bytes) + bytes);
   const std::int64_t now = live.fetch_add(bytes) + bytes;
-  raise(lap_peak, now);
   if (raise(peak, now)) copy_at_peak(now);
 }
 
@@ -196,8 +194,6 @@ void reset_peak() {
   peak = live_bytes();
 }
 bool was_refused() { return refused_by_machine; }
-std::int64_t lap_peak_bytes() { return lap_peak; }
-void reset_lap_peak() { lap_peak = live_bytes(); }
 std::int64_t allocated_bytes() { return given_out; }
 ByOwner<std::int64_t> live_by_owner() { return values_of(live_of); }
 ByOwner<std::int64_t> peak_by_owner() { return values_of(at_peak); }

@@ -25,9 +25,6 @@ ByOwner<std::int64_t> live_by_owner();
 ByOwner<std::int64_t> peak_by_owner();     // at peak_bytes(), to 0.1 % of it
 ByOwner<std::int64_t> highest_by_owner();  // each owner's own highest since reset_peak()
 
-std::int64_t lap_peak_bytes();  // highest live_bytes() since reset_lap_peak()
-void reset_lap_peak();
-
 // While the object lives, allocations that would lift live_bytes() above the limit fail and set
 // exceeded(); blocks below 64 KiB do not fail, as OpenBLAS and OpenMP do not survive that.
 class Limit {

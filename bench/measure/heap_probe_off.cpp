@@ -13,8 +13,6 @@ bool was_refused() { return false; }
 ByOwner<std::int64_t> live_by_owner() { return {}; }
 ByOwner<std::int64_t> peak_by_owner() { return {}; }
 ByOwner<std::int64_t> highest_by_owner() { return {}; }
-std::int64_t lap_peak_bytes() { return 0; }
-void reset_lap_peak() {}
 Limit::Limit(std::int64_t) {}
 Limit::~Limit() = default;
 Backstop::Backstop(std::optional<std::int64_t>) {}

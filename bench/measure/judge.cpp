@@ -165,7 +165,7 @@ Verdict Judge::judge_method_error(const Case& asked, const std::vector<JudgedSte
             fmt::format("{}{} {:.2e} is above the target {:.0e}",
                         prefix_of(static_cast<std::int64_t>(at)), worst.name, worst.value, target)};
   if (other != steps.end()) {
-    record.other_solution = true;
+    record.outcome = other_solution;
     return {Status::ok, fmt::format("{}another solution than the reference's, {:.1e} of its stress "
                                     "away; errors are to this one",
                                     prefix_of(other - steps.begin()),

@@ -156,7 +156,7 @@ void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Rec
 void Judge::note_discretisation(const Method& method, Record& record) {
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound ? discretisation(*bound, method.degree) : nullptr;
-  if (record.other_solution) {
+  if (record.outcome == other_solution) {
     record.no_discretisation_error = "it is known for the reference's solution only";
   } else if (known != nullptr) {
     note(known->total, known->error,
@@ -212,7 +212,7 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
                             const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known =
-      bound && !record.other_solution ? discretisation(*bound, method.degree) : nullptr;
+      bound && record.outcome != other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
   fields.picture = common_.picture;
   if (!has_own_displacement(solution) && known != nullptr && known->u.allFinite())

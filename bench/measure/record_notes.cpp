@@ -61,7 +61,6 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
   AssembledBlocks blocks;
   for (int i = 0; i < repetitions; ++i) {
     blocks.system.reset();
-    heap::reset_peak();
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
     const OwnerScope scope(MemoryOwner::blocks);
@@ -69,8 +68,7 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
       blocks.system.reset(
           new DualSystem(assemble(problem, method.blocks, method.degree)));  // no copy
     blocks.assembly_samples_s.push_back(seconds_since(start));
-    blocks.blocks_heap_bytes = if_probed(heap::live_bytes() - before);
-    blocks.assembly_peak_heap_bytes = if_probed(heap::peak_bytes() - before);
+    blocks.heap_bytes = heap::live_bytes() - before;
   }
   return blocks;
 }
@@ -84,8 +82,6 @@ Json to_json(const TimedRun& run) {
           {"stages", run.stages},
           {"status", name_of(run.end.status)},
           {"message", run.end.reason},
-          {"signal", run.signal},
-          {"ended_in", run.ended_in},
           {"runs_s", run.runs_s},
           {"program_s", run.program_s},
           {"processor_s", run.processor_s},
@@ -97,8 +93,6 @@ TimedRun timed_run_of(const Json& json) {
           json.at("stages").get<std::map<std::string, double>>(),
           {status_of(json.at("status").get<std::string>()).value_or(Status::crashed),
            json.at("message").get<std::string>()},
-          json.at("signal").get<std::string>(),
-          json.at("ended_in").get<std::string>(),
           json.at("runs_s").get<double>(),
           json.at("program_s").get<double>(),
           json.at("processor_s").get<double>(),
@@ -108,17 +102,13 @@ TimedRun timed_run_of(const Json& json) {
 bool ended_alike(const TimedRun& run, const char* which, Record& record) {
   if (run.end.status == record.claimed_status) return true;
   record.conclude({run.end.status, fmt::format("in a {} run: {}", which, run.end.reason)});
-  record.signal = run.signal;
-  record.ended_in = run.ended_in;
-  if (!run.ended_in.empty()) record.time_so_far_s = run.time_s;
   record.samples_s.clear();
   record.stage_samples.clear();
   record.program_samples_s.clear();
   record.processor_samples_s.clear();
   record.program_solve_samples_s.clear();
-  for (const char* name :
-       {"peak_heap_bytes", "peak_rss_bytes", "memory_by_owner", "memory_by_stage",
-        "memory_counts_differ", "memory_count_ratio", "heap_allocations", "heap_allocated_bytes"})
+  for (const char* name : {"peak_heap_bytes", "peak_rss_bytes", "memory_by_owner",
+                           "memory_counts_differ", "heap_allocations", "heap_allocated_bytes"})
     field_named(name).clear(record);
   return false;
 }
@@ -287,9 +277,7 @@ void note(const ContactIntervals& intervals, Record& record) {
 void note(const MemorySplit& memory, Record& record) {
   take_over(memory, record);
   record.memory_by_owner = by_owner(memory);
-  record.memory_by_stage = by_stage(memory);
   record.memory_counts_differ = counts_differ(memory);
-  record.memory_count_ratio = count_ratio(memory);
 }
 
 }  // namespace airybench

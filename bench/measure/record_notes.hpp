@@ -19,8 +19,7 @@ struct AssembledBlocks {
   // With the loads of the path's first or last step; null if there is no body.
   std::unique_ptr<DualSystem> system;
   std::vector<double> assembly_samples_s;
-  std::optional<std::int64_t> blocks_heap_bytes;         // live after assembly
-  std::optional<std::int64_t> assembly_peak_heap_bytes;  // highest during it
+  std::int64_t heap_bytes = 0;  // that they hold; 0 without the heap probe
 };
 AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem,
                                      const Method& method, int repetitions);
@@ -31,7 +30,6 @@ struct TimedRun {
   double time_s = 0;
   std::map<std::string, double> stages;  // stage → seconds
   Verdict end = {Status::crashed, "the run did not take place"};
-  std::string signal, ended_in;           // see record_fields.def
   double runs_s = 0;                      // of all runs of the case so far
   double program_s = 0, processor_s = 0;  // of an external program, from start to end
   double program_solve_s = 0;             // of its solve, by its own clock

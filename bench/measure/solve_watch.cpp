@@ -1,9 +1,5 @@
 #include "bench/measure/solve_watch.hpp"
 
-#include <linux/perf_event.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -20,32 +16,7 @@ std::int64_t bytes_of_answer(const Solution& solution) {
   return static_cast<std::int64_t>(static_cast<std::size_t>(doubles) * sizeof(double));
 }
 
-int open_counter() {
-  perf_event_attr attributes = {};
-  attributes.size = sizeof attributes;
-  attributes.type = PERF_TYPE_HARDWARE;
-  attributes.config = PERF_COUNT_HW_INSTRUCTIONS;
-  attributes.exclude_kernel = 1;
-  attributes.exclude_hv = 1;
-  attributes.inherit = 1;
-  attributes.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
-  constexpr int this_thread = 0, any_cpu = -1, no_group = -1;
-  return static_cast<int>(syscall(SYS_perf_event_open, &attributes, this_thread, any_cpu, no_group,
-                                  PERF_FLAG_FD_CLOEXEC));
-}
-
 }  // namespace
-
-std::optional<double> count_ratio(const MemorySplit& memory) {
-  std::int64_t held = 0, counted = 0;
-  for (const MemoryOwner owner : all_memory_owners) {
-    if (owner == MemoryOwner::blocks || memory.counted[owner] == 0) continue;
-    held += memory.held[owner];
-    counted += memory.counted[owner];
-  }
-  if (counted == 0) return {};
-  return static_cast<double>(held) / static_cast<double>(counted);
-}
 
 bool counts_differ(const MemorySplit& memory) {
   constexpr std::int64_t slack_bytes = 64 * 1024;
@@ -69,14 +40,6 @@ Json by_owner(const MemorySplit& memory) {
   return json;
 }
 
-Json by_stage(const MemorySplit& memory) {
-  Json json = Json::object();
-  for (const Stage stage : all_stages)
-    if (const auto& bytes = memory.stage_peak[static_cast<std::size_t>(stage)])
-      json[std::string(name_of(stage))] = *bytes;
-  return json;
-}
-
 MemoryWatch::MemoryWatch(std::int64_t held_by_blocks) : held_by_blocks_(held_by_blocks) {
   seen_.heap_allocations = heap::allocations();
   seen_.heap_allocated_bytes = heap::allocated_bytes();
@@ -85,11 +48,7 @@ MemoryWatch::MemoryWatch(std::int64_t held_by_blocks) : held_by_blocks_(held_by_
   before_by_owner_ = heap::live_by_owner();
 }
 
-void MemoryWatch::begins(Stage) { heap::reset_lap_peak(); }
-
-void MemoryWatch::ends(Stage stage) {
-  std::optional<std::int64_t>& peak = seen_.stage_peak[static_cast<std::size_t>(stage)];
-  peak = std::max(peak.value_or(0), of_solve(heap::lap_peak_bytes()));
+void MemoryWatch::ends(Stage) {
   const ByOwner<std::int64_t> live = of_solve(heap::live_by_owner());
   for (const MemoryOwner owner : all_memory_owners)
     seen_.held[owner] = std::max(seen_.held[owner], live[owner]);
@@ -138,21 +97,5 @@ std::optional<std::int64_t> peak_bytes() {
 }
 
 }  // namespace rss
-
-InstructionCounter::InstructionCounter() : file_(open_counter()) {}
-
-InstructionCounter::~InstructionCounter() {
-  if (file_ >= 0) close(file_);
-}
-
-std::optional<std::int64_t> InstructionCounter::count() const {
-  struct {
-    std::uint64_t instructions, time_enabled, time_running;
-  } counted = {};
-  if (file_ < 0 || read(file_, &counted, sizeof counted) != sizeof counted) return {};
-  // The kernel shared the counter out, or never ran it.
-  if (counted.time_running == 0 || counted.time_running != counted.time_enabled) return {};
-  return static_cast<std::int64_t>(counted.instructions);
-}
 
 }  // namespace airybench

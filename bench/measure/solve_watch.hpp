@@ -1,4 +1,4 @@
-// Heap of one solve by owner (memory_owner.hpp) and by stage, resident set, instructions.
+// Heap of one solve by owner (memory_owner.hpp), and its resident set.
 //
 // Heap bytes exclude what was live before the solve, but include the blocks. An owner's measured
 // bytes are its largest at the ends of stages, when workspace is gone and what the method keeps is
@@ -18,26 +18,21 @@ struct MemorySplit {
   ByOwner<std::int64_t> at_peak;  // at the solve's peak, to 0.1 % of the live heap
   ByOwner<std::int64_t> held;     // as described above
   ByOwner<std::int64_t> counted;  // entries × size; zero: not counted
-  std::array<std::optional<std::int64_t>, all_stages.size()> stage_peak;  // empty: not run
-  std::int64_t heap_allocations = 0, heap_allocated_bytes = 0;            // freed or not
+  std::int64_t heap_allocations = 0, heap_allocated_bytes = 0;  // freed or not
 };
-
-// Σ held / Σ counted over the counted owners except the blocks; empty if there are none.
-std::optional<double> count_ratio(const MemorySplit& memory);
 
 // Whether some owner's held bytes differ from its count by more than 10 % and more than 64 KiB.
 bool counts_differ(const MemorySplit& memory);
 
 // {"factor": {"peak_bytes": …, "held_bytes": …, "counted_bytes": … or null}, …}; no empty owners.
 Json by_owner(const MemorySplit& memory);
-Json by_stage(const MemorySplit& memory);
 
 class MemoryWatch : public StageObserver {
  public:
   // held_by_blocks: bytes of the solve's blocks, which count as its own. Resets the heap's peaks.
   explicit MemoryWatch(std::int64_t held_by_blocks);
 
-  void begins(Stage stage) override;
+  void begins(Stage) override {}
   void ends(Stage stage) override;
 
   std::int64_t peak_bytes() const;
@@ -58,21 +53,5 @@ namespace rss {
 bool reset_peak();
 std::optional<std::int64_t> peak_bytes();  // the high-water mark, VmHWM
 }  // namespace rss
-
-// Counts this process's instructions in user space (perf_event_open(2)), which other work does not
-// disturb. Includes threads that this one or its descendants start while the counter lives.
-class InstructionCounter {
- public:
-  InstructionCounter();  // begins to count
-  ~InstructionCounter();
-  InstructionCounter(const InstructionCounter&) = delete;
-  InstructionCounter& operator=(const InstructionCounter&) = delete;
-
-  // Empty if there is no counter, the kernel forbids it (perf_event_paranoid), or it is shared out.
-  std::optional<std::int64_t> count() const;
-
- private:
-  int file_;  // -1: not available
-};
 
 }  // namespace airybench

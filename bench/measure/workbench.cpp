@@ -95,7 +95,6 @@ void Workbench::measure_memory(const Method& method, const Choice& choice, Recor
   const Run run = solve(choice, blocks(method), Activity::memory_run);
   if (!ended_alike(timed(run), "memory", record)) return;
   note_memory(run, record);
-  record.instructions = run.instructions;
 }
 
 TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
@@ -122,11 +121,6 @@ Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& bl
   };
   const Run tuned = solve({tune, {}, settings}, blocks, Activity::tuning);
   record.tuning_s = tuned.time_s;
-  for (const GridPoint& point : tuning.grid)
-    record.grid.push_back({{"r", point.r},
-                           {"rho", point.rho},
-                           {"iterations", point.iterations},
-                           {"outcome", point.outcome}});
   record.tuning_cut =
       tuned.solution.status == Status::timeout ||
       std::ranges::any_of(tuning.grid, [](const GridPoint& p) { return p.outcome == "not tried"; });
@@ -220,11 +214,9 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   const ActivityScope scope(board_, what);
   const RunControl control = control_of(choice.settings, what);
   const bool rss_is_reset = rss::reset_peak();
-  const std::int64_t of_blocks = blocks.blocks_heap_bytes.value_or(0);
+  const std::int64_t of_blocks = blocks.heap_bytes;
   const MemoryWatch watch(of_blocks);
   const std::int64_t limit_base = heap::live_bytes() - of_blocks;
-  std::optional<InstructionCounter> counter;
-  if (what == Activity::memory_run) counter.emplace();
   Run result;
   VisitStep visit;
   if (in_detail)
@@ -252,7 +244,6 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
     if (program->peak_bytes > 0) result.peak_rss_bytes = program->peak_bytes;
     return result;
   }
-  if (counter) result.instructions = counter->count();
   if (heap::is_active()) {
     result.peak_heap_bytes = watch.peak_bytes();
     result.memory = watch.split(result.solution, blocks.system ? blocks.system->bytes() : 0);

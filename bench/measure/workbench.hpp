@@ -42,7 +42,7 @@ class Workbench {
   struct Run {
     Solution solution;
     double time_s = 0;
-    std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes, instructions;
+    std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes;
     std::optional<MemorySplit> memory;
     std::vector<JudgedStep> judged;  // if asked for; of a path every step that it reached
   };

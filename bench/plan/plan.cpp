@@ -140,8 +140,6 @@ Record blank_record(const Case& planned, const Limits& limits) {
   if (const auto& adapted = posed.adapted) {
     record.adapt_level = adapted->level;
     record.adapt_time_s = adapted->time_s;
-    record.adapt_estimate_share = adapted->estimate_share;
-    record.smallest_angle_deg = adapted->smallest_angle_deg;
     record.adapt_goal = adapted->goal;
   }
   return record;

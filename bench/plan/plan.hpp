@@ -17,9 +17,7 @@ namespace airybench {
 
 struct AdaptedMesh {
   int level = 0;
-  double time_s = 0;          // of the loop, up to this level
-  double estimate_share = 0;  // of error estimates in time_s
-  double smallest_angle_deg = 0;
+  double time_s = 0;                // of the loop, up to this level
   std::optional<double> goal = {};  // the total error that it meets
 };
 

@@ -43,20 +43,19 @@ using words_by_word = std::map<std::string, std::string>;
 using steps = std::vector<StepResult>;
 // JSON of a certain shape, or null:
 using object = Json;
-using wholes_by_word = Json;
 using by_owner = Json;
 using texts_by_word = Json;
 using numbers_by_word = Json;
-using grid = Json;
 using contact_ends = Json;
 using attempts = Json;
 }  // namespace field_kind
 
+inline constexpr std::string_view other_solution = "other_solution";
 // In the order of figures' keys.
 inline constexpr std::array<std::string_view, 13> all_outcomes = {
-    "ok",        "other_solution", "inaccurate",    "unstressed", "not_converged",
-    "breakdown", "unverified",     "wrong_success", "timeout",    "out_of_memory",
-    "crashed",   "machine_fault",  "skipped"};
+    "ok",        other_solution,  "inaccurate",    "unstressed", "not_converged",
+    "breakdown", "unverified",    "wrong_success", "timeout",    "out_of_memory",
+    "crashed",   "machine_fault", "skipped"};
 // The cases of each method in a study, in the order of Study::Points; of one case: none.
 inline constexpr std::array<std::string_view, 3> all_points = {"accuracy", "contact", "threads"};
 
@@ -105,7 +104,6 @@ enum FieldUse : unsigned {
   // A counter that compiler and libraries change, and its tolerance.
   of_libraries = 16,
   per_mille = 32,
-  per_cent = 64,
 };
 
 struct Field {

@@ -115,12 +115,6 @@ bool has(const Json& object, std::initializer_list<Key> keys) {
 }
 constexpr Shape number_or_null = is_or_null<is_number>, count_or_null = is_or_null<is_count>;
 
-bool is_grid_point(const Json& point) {
-  return has(point, {{"r", number_or_null},
-                     {"rho", number_or_null},
-                     {"iterations", is_count},
-                     {"outcome", is_text}});
-}
 bool is_attempt(const Json& attempt) {
   return has(attempt, {{"tolerance", number_or_null},
                        {"claimed_status", is_text},
@@ -190,14 +184,12 @@ const Rule stage_times{"a list of objects of numbers", is_list_of<is_object_of<i
 const Rule words{"a list of texts", is_list_of<is_text>};
 const Rule words_by_word{"an object of texts", is_object_of<is_text>};
 const Rule object{"an object, null", is_object};
-const Rule wholes_by_word{"an object of whole numbers, null", is_object_of<is_whole>};
 const Rule by_owner{"an object of objects of whole numbers, null",
                     is_object_of<is_object_of<is_or_null<is_whole>>>, false,
                     names_of(all_memory_owners)};
 const Rule texts_by_word{"an object of texts, null", is_object_of<is_text>};
 const Rule numbers_by_word{"an object of lists of numbers, null",
                            is_object_of<is_list_of<number_or_null>>};
-const Rule grid{"a list of {r, rho, iterations, outcome}, null", is_list_of<is_grid_point>};
 const Rule contact_ends{"a list of {face, from, to, x_mm, y_mm, low_mm, high_mm}, null",
                         is_list_of<is_contact_end>};
 const Rule steps{"a list of load steps, see steps in results/README.md, null",

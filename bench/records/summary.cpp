@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "bench/records/robust.hpp"
+#include "support/numbers.hpp"
 
 namespace airybench {
 namespace {
@@ -31,8 +32,6 @@ void summarise_times(Record& r) {
   set_interval(samples.size() > 1 ? std::optional(bootstrap_median(samples)) : std::nullopt,
                r.time_low_s, r.time_high_s);
   set_interval(median_interval(samples), r.time_ci_low_s, r.time_ci_high_s);
-  const std::optional<double> uncertainty = median_uncertainty(samples);
-  r.precision_reached = r.precision && uncertainty && *uncertainty <= *r.precision;
   r.assembly_s = median_of(r.assembly_samples_s);
   r.program_s = median_of(r.program_samples_s);
   r.processor_s = median_of(r.processor_samples_s);
@@ -71,24 +70,6 @@ void summarise_load_cases(Record& r) {
   r.time_per_load_s = median_of(per_load);
 }
 
-void summarise_grid(Record& r) {
-  if (r.grid.empty()) return;
-  std::vector<double> iterations;
-  r.grid_failures = 0;
-  for (const Json& point : r.grid) {
-    const auto count = point.at("iterations").get<std::int64_t>();
-    if (point.at("outcome") == "diverged")
-      ++*r.grid_failures;
-    else if (count > 0)
-      iterations.push_back(static_cast<double>(count));
-    if (point.at("outcome") == "converged")
-      r.grid_best = std::min(r.grid_best.value_or(count), count);
-  }
-  if (iterations.empty()) return;
-  r.grid_median = static_cast<std::int64_t>(median(iterations));
-  r.grid_worst = static_cast<std::int64_t>(*std::max_element(iterations.begin(), iterations.end()));
-}
-
 }  // namespace
 
 std::string outcome_of(const Record& r) {
@@ -102,7 +83,8 @@ std::string outcome_of(const Record& r) {
                           [&](const StepResult& step) { return step.error && is_met(step.error); });
   if (r.status == Status::inaccurate && r.claimed_status == Status::ok && !is_of_the_mesh)
     return r.error_stress ? "wrong_success" : "unverified";
-  return r.other_solution ? "other_solution" : std::string(name_of(r.status));
+  return r.status == Status::ok && r.outcome == other_solution ? r.outcome
+                                                               : std::string(name_of(r.status));
 }
 
 bool times_tie(const Record& a, const Record& b) {
@@ -127,6 +109,16 @@ bool misses_goal(const Record& r) {
   return r.adapt_goal && r.error_total && *r.error_total > (1 + rounding) * *r.adapt_goal;
 }
 
+std::optional<double> precision_of(const Record& record) {
+  return parse_number(context_word(record, "precision"));
+}
+
+bool misses_precision(const Record& r) {
+  const std::optional<double> asked = precision_of(r),
+                              uncertainty = median_uncertainty(r.samples_s);
+  return asked && r.time_s && !(uncertainty && *uncertainty <= *asked);
+}
+
 bool has_few_samples(const Record& record) {
   return std::ssize(record.samples_s) < fewest_to_tell_apart;
 }
@@ -135,7 +127,6 @@ void summarise(Record& r) {
   summarise_times(r);
   summarise_stages(r);
   summarise_load_cases(r);
-  summarise_grid(r);
   r.outcome = outcome_of(r);
   r.error_total = total_error(r);
 }

@@ -8,8 +8,8 @@ namespace airybench {
 void summarise(Record& record);
 
 // If the method claims ok and the verifier disagrees: "wrong_success", or "unverified" without an
-// error_stress. A discretisation error above 1 alone does not count. Else "other_solution" or
-// status.
+// error_stress. A discretisation error above 1 alone does not count. Else status, or the
+// judge's other_solution.
 std::string outcome_of(const Record& record);
 
 // Whether the intervals of both median times overlap, so that neither is known to be faster.
@@ -23,6 +23,10 @@ inline bool is_all_error(const std::optional<double>& error) {
 
 // Its mesh was adapted to a total error below its own.
 bool misses_goal(const Record& record);
+
+// --repetitions=…,precision= of its run, and whether the interval of its median is wider.
+std::optional<double> precision_of(const Record& record);
+bool misses_precision(const Record& record);
 
 bool has_few_samples(const Record& record);
 

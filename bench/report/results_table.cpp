@@ -135,7 +135,7 @@ std::string imprecise_line(const Record& r) {
   return fmt::format("{}: time known to ± {}, not {:g} %, after {} repetitions\n",
                      name_of(r).text(),
                      uncertainty ? fmt::format("{:.2g} %", 100 * *uncertainty) : "?",
-                     100 * *r.precision, r.samples_s.size());
+                     100 * *precision_of(r), r.samples_s.size());
 }
 
 std::string noisy_line(const Record& r) {
@@ -166,12 +166,12 @@ void ResultsTable::add(const Record& r) {
     if (column.shown != Shown::if_chosen) row += text_of(column.cell(r), column.kind) + "\t";
   row.shrink_to_fit();
   rows_.push_back(std::move(row));
-  if (r.precision && !r.precision_reached && r.time_s) imprecise_ += imprecise_line(r);
+  if (misses_precision(r)) imprecise_ += imprecise_line(r);
   if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) noisy_ += noisy_line(r);
   if (r.status != Status::ok) {
     reasons_.push_back(
         {"", name_of(r).text(), fmt::format("{}: {}", name_of(r.status), r.status_reason)});
-  } else if (!r.status_reason.empty() && !r.other_solution) {
+  } else if (!r.status_reason.empty() && r.outcome != other_solution) {
     const Reason remark = {r.mesh + "/" + r.scene, name_of(r).text(), r.status_reason};
     const auto same = std::ranges::find_if(reasons_, [&](const Reason& other) {
       return other.scene == remark.scene && other.text == remark.text;

@@ -104,9 +104,7 @@ void compare_contexts(const TrackedRun& before, const TrackedRun& now,
   Finding& finding = findings.emplace_back(
       finding_of(all_cases, Lane::counters, "libraries", {}, {}, Kind::changed, now.date));
   finding.sentence = fmt::format(
-      "all cases: new baseline for heap figures and instructions, as compiler or libraries changed "
-      "({}).",
-      changes);
+      "all cases: new baseline for heap figures, as compiler or libraries changed ({}).", changes);
 }
 
 // The field whose level is judged. Nights before programs had theirs do not count for them: another
@@ -186,7 +184,7 @@ Finding finding_of(const TimeChange& change, const TimeTable& table,
 
 bool grew(const Field& field, double before, double after) {
   if (field.use & error) return after > 1.01 * before && after - before > 1e-11;
-  return after > before * (field.use & per_cent ? 1.01 : field.use & per_mille ? 1.001 : 1);
+  return after > before * (field.use & per_mille ? 1.001 : 1);
 }
 
 void track_newest(std::vector<TrackedRun>& history, const TimeRules& rules) {

@@ -2,9 +2,9 @@
 // are searched for changes of level (track_times.hpp), those of programs in their own solve.
 //
 //   status     ok → anything else is worse
-//   counters   any growth is worse. Heap figures and instructions depend on the libraries: only
-//              runs with the same compiler and libraries are compared. Heap may vary by 0.1 %
-//              (rounding of blocks depends on what is free), instructions by 1 % (interrupts).
+//   counters   any growth is worse. Heap figures depend on the libraries: only runs with the same
+//              compiler and libraries are compared. Heap may vary by 0.1 % (rounding of blocks
+//              depends on what is free).
 //   errors     growth by more than 1 % and more than 1e-11 is worse. Less is rounding: another
 //              order of summation moves errors of direct methods, 1e-12 to 1e-10, by their size.
 //   answer     another answer_hash with unchanged errors: changed, no failure

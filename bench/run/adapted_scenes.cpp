@@ -17,6 +17,7 @@
 #include "bench/run/adaptive_loop.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "mesh/msh_format.hpp"
+#include "mesh/quality.hpp"
 #include "mesh/refinement.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
@@ -116,10 +117,9 @@ Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
           {"unknowns", level.unknowns},
           {"error", level.error ? Json(*level.error) : Json()},
           {"reaches", level.goal.has_value()},
-          {"angle", level.smallest_angle_deg},
+          {"angle", mesh_quality(level.mesh).smallest_angle_deg},
           {"goal", level.goal && level.goal->error ? Json(*level.goal->error) : Json()},
-          {"time_s", level.time_s},
-          {"estimate_s", level.estimate_s}};
+          {"time_s", level.time_s}};
 }
 
 void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Options& options,
@@ -157,17 +157,16 @@ std::string obituary(const ChildEnd& end) {
 PosedScene posed_level(const Json& said, const Scene& scene, const std::string& definition,
                        const PosedScene& start, const std::filesystem::path& out) {
   const MeshFile file = read_mesh_file(said.at("file").get<std::string>());
-  const double time_s = said.at("time_s");
   const Json& goal = said.at("goal");
-  return {.scene_name = start.scene_name,
-          .scene_group = start.scene_group,
-          .mesh_file = recorded_path(file.path, out),
-          .mesh_sha256 = file.sha256,
-          .scene_definition = definition,
-          .problem = std::make_shared<const Problem>(pose(scene, file.mesh)),
-          .adapted = AdaptedMesh{
-              said.at("number"), time_s, said.at("estimate_s").get<double>() / time_s,
-              said.at("angle"), goal.is_null() ? std::nullopt : std::optional(goal.get<double>())}};
+  return {
+      .scene_name = start.scene_name,
+      .scene_group = start.scene_group,
+      .mesh_file = recorded_path(file.path, out),
+      .mesh_sha256 = file.sha256,
+      .scene_definition = definition,
+      .problem = std::make_shared<const Problem>(pose(scene, file.mesh)),
+      .adapted = AdaptedMesh{said.at("number"), said.at("time_s"),
+                             goal.is_null() ? std::nullopt : std::optional(goal.get<double>())}};
 }
 
 void print(const Json& said, const std::string& name) {

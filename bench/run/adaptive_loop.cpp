@@ -13,7 +13,6 @@
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "mesh/bisection.hpp"
-#include "mesh/quality.hpp"
 #include "mesh/refinement.hpp"
 #include "mesh/transform.hpp"
 #include "support/errors.hpp"
@@ -80,9 +79,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   level.mesh = mesh_;
   level.number = static_cast<int>(history_.size());
   level.unknowns = mesh_sizes(mesh_).n_phi;
-  level.smallest_angle_deg = mesh_quality(mesh_).smallest_angle_deg;
   level.time_s = time_s_;
-  level.estimate_s = estimate_s_;
   level.error = error.relative();
   if (!error.flaw().empty()) ended_ = "nothing can be said of the error: " + error.flaw();
   parts_ = error.parts();
@@ -105,11 +102,9 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& syste
   if (solution.edge_moments.cols() == 0)
     throw UsageError(fmt::format(
         "--adapt: by={} (allowed: a method with edge displacements, as HYBRID)", method_.name));
-  const auto estimating = std::chrono::steady_clock::now();
   const DisplacementField w =
       recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
   error.add(constitutive_error(system, solution.stress, solution.F_C, w), prefix);
-  estimate_s_ += seconds_since(estimating);
 }
 
 void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {

@@ -41,8 +41,7 @@ struct AdaptiveLevel {
   int unknowns = 0;               // n_φ
   std::optional<double> error;    // TotalError::relative(); empty: see why_ended()
   std::optional<AdaptGoal> goal;  // the last that it, and no earlier level, reaches
-  double smallest_angle_deg = 0;
-  double time_s = 0, estimate_s = 0;  // summed over all levels so far; time_s includes estimate_s
+  double time_s = 0;              // of all levels so far
 };
 
 class AdaptiveLoop {
@@ -76,7 +75,7 @@ class AdaptiveLoop {
   ExpectedParts::Finer expected_;
   double more_triangles_ = 1.2, more_squared_ = 1;
   std::vector<std::pair<int, double>> history_;  // per level: unknowns, error
-  double time_s_ = 0, estimate_s_ = 0;
+  double time_s_ = 0;
   std::size_t goal_ = 0;  // the first that is not yet reached
   std::string ended_;
 };

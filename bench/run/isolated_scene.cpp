@@ -90,9 +90,6 @@ void end_orphans(const std::map<std::size_t, CaseProcess>& processes) {
 Record record_of_end(const Case& c, const Limits& limits, const TimedRun& last) {
   Record record = blank_record(c, limits);
   record.conclude(last.end);
-  record.signal = last.signal;
-  record.ended_in = last.ended_in;
-  record.time_so_far_s = last.time_s;
   record.runs_s = last.runs_s;
   return record;
 }
@@ -188,13 +185,12 @@ void tell_refused_memory_at_exit() {
 
 TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limits& limits) {
   TimedRun run;
-  run.ended_in = board.where();
   run.time_s = board.seconds();
   run.runs_s = board.seconds_in_runs();
   const std::string place =
       end.timed_out && board.activity() == Activity::none
           ? "between its runs"
-          : fmt::format("in {} after {}", run.ended_in, show_seconds(run.time_s));
+          : fmt::format("in {} after {}", board.where(), show_seconds(run.time_s));
   const auto ended = [&](Status status, const std::string& how) {
     run.end = {status, fmt::format("its process was ended {}{}", place, how)};
     return run;
@@ -218,8 +214,7 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limi
     run.end.reason = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
     return run;
   }
-  run.signal = signal_name(end.signal);
-  const std::string by = " by " + run.signal;
+  const std::string by = " by " + signal_name(end.signal);
   if ((end.signal == SIGKILL || end.signal == SIGXCPU) && end.used_up_processor_time)
     return ended(Status::machine_fault, by + ": the limit on processor time (ulimit -t)");
   if (end.signal != SIGKILL || end.lingered) return ended(Status::crashed, by);

@@ -25,8 +25,7 @@ namespace airybench {
 struct Verification {
   std::optional<double> error_stress;
   std::optional<double> error_force;
-  std::optional<double> error_stress_absolute;  // ‖σ − σ_ref‖, √(N mm)
-  std::optional<double> reference_error;        // the reference's own estimate
+  std::optional<double> reference_error;  // the reference's own estimate
   // Without a reference: distance of the stresses from those of the edge moments, relative in the
   // energy norm. Not an error: see check_moments().
   std::optional<double> stress_of_moments_off;

@@ -50,7 +50,6 @@ Solution run_any(const SolveAny& solve, const Problem& problem, const RunControl
   } catch (const TimeoutReached& timeout) {
     Solution solution = failed(Status::timeout, timeout.what());
     solution.done_fraction = timeout.done_fraction;
-    solution.error_so_far = timeout.error_so_far;
     return solution;
   } catch (const std::bad_alloc&) {
     return failed(Status::out_of_memory, "an allocation was refused");

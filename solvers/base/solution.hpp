@@ -76,8 +76,7 @@ struct Solution {
   // Counted by the method as entries × size: what it holds between stages, and the vectors of its
   // iteration. Without the blocks.
   ByOwner<std::size_t> storage;
-  std::size_t file_bytes = 0;                 // more of its matrices, in a file
-  std::optional<std::int64_t> library_bytes;  // as CHOLMOD and MUMPS count them
+  std::size_t file_bytes = 0;  // more of its matrices, in a file
   // Of its factor or preconditioner: non-zeros, and the additions and multiplications of the
   // numeric factorisation.
   std::optional<std::int64_t> factor_entries;
@@ -89,7 +88,7 @@ struct Solution {
   std::optional<IterationTimes> iteration_times;  // two levels only
   std::vector<IterationHistory> histories;
   std::string parameters;  // chosen or changed by the method: "r=20, rho=32", "shift=0.002"
-  std::optional<double> done_fraction, error_so_far;  // on timeout, where known
+  std::optional<double> done_fraction;  // on timeout, where known
   // The method's own estimate of the largest relative error that the verifier measures.
   std::optional<double> error_estimate;
   std::optional<double> condition_estimate;  // of the equilibrated matrix it factorises, 1-norm

@@ -148,8 +148,6 @@ std::size_t CholmodFactor::bytes() const {
   return doubles * sizeof(double) + integers * sizeof(int);
 }
 
-std::size_t CholmodFactor::library_bytes() const { return common_.memory_inuse; }
-
 std::int64_t CholmodFactor::entries() const {
   return factor_ == nullptr ? 0 : static_cast<std::int64_t>(common_.lnz);
 }

@@ -36,10 +36,9 @@ class CholmodFactor {
   // (L_CC L_CCᵀ)⁻¹.
   Eigen::MatrixXd inverse_of_schur() const;
 
-  std::size_t bytes() const;          // of L as it is stored, its permutation and the workspace
-  std::size_t library_bytes() const;  // the same by CHOLMOD's own count of its allocations
-  std::int64_t entries() const;       // of L, without the supernodes' padding
-  double flops() const;               // of the numeric factorisation
+  std::size_t bytes() const;     // of L as it is stored, its permutation and the workspace
+  std::int64_t entries() const;  // of L, without the supernodes' padding
+  double flops() const;          // of the numeric factorisation
 
  private:
   std::vector<int> order_with_last(const Eigen::SparseMatrix<double>& lower, int trailing);

@@ -11,8 +11,6 @@ void count_factor(const Factor& factor, Solution& solution) {
   solution.storage[MemoryOwner::factor] = factor.bytes();
   solution.factor_entries = factor.entries();
   solution.factor_flops = factor.flops();
-  if constexpr (requires { factor.library_bytes(); })
-    solution.library_bytes = static_cast<std::int64_t>(factor.library_bytes());
 }
 
 }  // namespace airybench

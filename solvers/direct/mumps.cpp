@@ -167,10 +167,6 @@ std::size_t MumpsFactor::bytes() const {
   return doubles * sizeof(double) + integers * sizeof(int);
 }
 
-std::size_t MumpsFactor::library_bytes() const {
-  return static_cast<std::size_t>(mumps_.infog[no(19)]) * 1000000;
-}
-
 std::int64_t MumpsFactor::entries() const {
   return static_cast<std::int64_t>(large(mumps_.infog[no(29)]));
 }

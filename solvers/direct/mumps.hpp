@@ -54,9 +54,8 @@ class MumpsFactor {
   // Of what it keeps: the workspace that L and D are left in, which is larger than they are by what
   // the fronts needed, indices, the entries' rows and columns, schur().
   std::size_t bytes() const;
-  std::size_t library_bytes() const;  // by MUMPS's own count, in units of 10⁶
-  std::int64_t entries() const;       // of L and D
-  double flops() const;               // of the numeric factorisation
+  std::int64_t entries() const;  // of L and D
+  double flops() const;          // of the numeric factorisation
 
  private:
   void call(int job, const char* doing);

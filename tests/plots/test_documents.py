@@ -77,7 +77,8 @@ class MeasuredTest(unittest.TestCase):
     def test_it_says_what_the_records_have_and_nothing_else(self) -> None:
         other = line("BLIND", {"git_revision": "fedcba9876543210", "git_dirty": "yes", "cpu": "Abacus 10",
                                "date": "2026-11-23T09:51:32Z"}, threads=2)
-        precise, asked = dict(repetitions=20, precision=0.02), dict(retry_noisy=0.05)
+        precise = dict(repetitions=20, context={"precision": "0.02"}, time_ci_high_s=0.505)
+        asked = dict(retry_noisy=0.05)
         skipped = dict(status="skipped", outcome="skipped", time_s="", repetitions=0)
         timeout = dict(status="timeout", outcome="timeout")
         noisy = [line(noise_attempts=1, noise_share=0.01, **asked), line("P2", **asked, **timeout),
@@ -98,7 +99,7 @@ class MeasuredTest(unittest.TestCase):
                 ([line(), line("HYBRID", repetitions=1)], ("5 repetitions; 1 case had one.",), ()),
                 ([line(**skipped)], ("No case has a time.",), ()),
                 ([line(context={"interleaved": "yes"})], ("in random turn",), ()),
-                ([line(**precise, precision_reached="true"), line("BLIND", **precise), line("HYBRID")],
+                ([line(**precise, time_ci_low_s=0.495), line("BLIND", **precise, time_ci_low_s=0.4), line("HYBRID")],
                  ("2 of 3 such cases have at least 6 samples", "2 of 3 such cases were repeated until",
                   "2\u00a0% of the median", "1 of 2 became so precise."), ()),
                 (kernels, ("scattered by 5\u00a0%", "of 6 times)"), ()),

@@ -181,10 +181,7 @@ TEST(Command, ThePapersStopIsRecordedWithTheErrorItLeaves) {
     EXPECT_GT(record["time_s"], 0);
   }
   const Json& alm = records[1];
-  EXPECT_EQ(alm["grid"].size(), 64u);
-  EXPECT_EQ(alm["grid_best"], alm["uzawa_iterations"]);
-  EXPECT_LE(alm["grid_best"], alm["grid_median"]);
-  EXPECT_LE(alm["grid_median"], alm["grid_worst"]);
+  EXPECT_TRUE(alm["parameters"].get<std::string>().starts_with("r="));
   EXPECT_GT(alm["tuning_s"], 0);
 }
 
@@ -228,7 +225,6 @@ TEST(Command, ATimeoutTellsWhatWasDone) {
   EXPECT_TRUE(record["time_s"].is_null());
   EXPECT_LT(record["done_fraction"], 0.9);
   EXPECT_GT(record["extrapolated_time_s"], limit_s);
-  EXPECT_GT(record["error_so_far"], record["tolerance"].get<double>());
 }
 
 TEST(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
@@ -335,7 +331,7 @@ TEST(Command, ALongCaseIsMeasuredOnce) {
   EXPECT_EQ(record["samples_s"].size(), 1u);
   EXPECT_GT(record["time_s"], 0);
   // Null without the heap probe.
-  EXPECT_EQ(record["peak_heap_bytes"].is_null(), record["blocks_heap_bytes"].is_null());
+  EXPECT_EQ(record["peak_heap_bytes"].is_null(), record["memory_by_owner"].is_null());
 }
 
 }  // namespace

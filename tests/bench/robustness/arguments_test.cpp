@@ -204,8 +204,7 @@ TEST(Records, ThatAreCorruptAreRefusedByEveryCommand) {
   refused("\"" + std::string(100000, 'x') + "\"", "\"xxx");
   refused("{\"mesh\": \"\377\"}", "not JSON: ");
   for (const auto& [key, value] :
-       {std::pair<const char*, Json>("grid", Json::array({Json::object()})),
-        {"memory_by_stage", Json::array()},
+       {std::pair<const char*, Json>("contact_ends", Json::array({Json::object()})),
         {"memory_by_owner", Json{{"factor", 3}}},
         {"histories", Json{{"residual", "long"}}},
         {"stages_left_out", Json{{"contact", 3}}},

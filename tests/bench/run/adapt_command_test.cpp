@@ -46,9 +46,6 @@ TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
     EXPECT_GE(r["error_total"].get<double>(), r["error_discretisation"].get<double>());
     EXPECT_TRUE(r["adapt_time_s"] > time_s || i % 3 > 0);
     time_s = r["adapt_time_s"];
-    EXPECT_GT(r["adapt_estimate_share"].get<double>(), 0);
-    EXPECT_GE(r["smallest_angle_deg"].get<double>(),
-              0.5 * records[0]["smallest_angle_deg"].get<double>());
     const auto file = bench_.path("o") / r["mesh_file"].get<std::string>();
     EXPECT_EQ(r["mesh_sha256"], sha256_of_file(file));
     EXPECT_EQ(mesh_sizes(read_msh(file)).n_phi, r["n_phi"]);
