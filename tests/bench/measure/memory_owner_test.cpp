@@ -245,7 +245,8 @@ TEST_P(CountedMemory, IsWhatIsMeasured) {
   EXPECT_NEAR(at_peak, static_cast<double>(record.peak_heap_bytes.value()), whole / 500);
   EXPECT_GT(record.heap_allocated_bytes.value(), record.storage_bytes.value() / 2);
   EXPECT_GE(record.peak_heap_bytes.value(),
-            record.storage_bytes.value() + record.blocks_heap_bytes.value());
+            record.storage_bytes.value() +
+                record.memory_by_owner.at("blocks").at("held_bytes").get<std::int64_t>());
 }
 
 }  // namespace
