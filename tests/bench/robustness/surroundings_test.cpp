@@ -1,9 +1,13 @@
 // What a run finds around it: descriptors that are closed or full, an environment that is not its
 // own.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 
 #include "support/messages.hpp"
 #include "tests/support/other_user.hpp"
