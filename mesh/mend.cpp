@@ -1,44 +1,18 @@
 #include "mesh/mend.hpp"
 
 #include <algorithm>
-#include <iomanip>
-#include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "mesh/arcs.hpp"
 #include "mesh/bisection.hpp"
+#include "mesh/curved_groups.hpp"
 #include "mesh/fault_places.hpp"
 #include "mesh/straight_sides.hpp"
 #include "mesh/supposed_curves.hpp"
 
 namespace airybench {
 namespace {
-
-// "force:hole (24 edges, chords off by up to 0.0086 mm), …".
-class CurvedGroups {
- public:
-  explicit CurvedGroups(const Mesh& mesh) : mesh_(mesh) {}
-  void add(const BoundaryEdge& edge, double sagitta_mm) {
-    auto& [edges, largest_mm] = groups_[boundary_label(mesh_, edge)];
-    ++edges;
-    largest_mm = std::max(largest_mm, sagitta_mm);
-  }
-  bool empty() const { return groups_.empty(); }
-  std::string words() const {
-    std::ostringstream text;
-    text << std::setprecision(2);
-    for (const auto& [label, group] : groups_)
-      text << (text.tellp() > 0 ? ", " : "") << label << " (" << group.first
-           << " edges, chords off by up to " << group.second << " mm)";
-    return text.str();
-  }
-
- private:
-  const Mesh& mesh_;
-  std::map<std::string, std::pair<int, double>> groups_;
-};
 
 // A curved edge that does not fit its triangle, also after with_fitting_curves(): refinement would
 // lose its curve.

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "assembly/problem/load_scale.hpp"
+#include "bench/verify/geometry_error.hpp"
 
 namespace airybench {
 
@@ -118,6 +119,7 @@ Verdict Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps,
   if (is_ok() && solution.program)
     verdict = judge_penetration(steps, solution.program->allowed_penetration, std::move(verdict));
   if (!problem_) return verdict;
+  record.polygons = polygon_groups(*problem_, method.in_displacements ? 1 : method.degree);
   if (!method.in_displacements || !solution.program) {
     note_discretisation(method, record);
   } else if (reference(1) == nullptr) {
@@ -129,6 +131,7 @@ Verdict Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps,
   const std::vector<StepResult>* const halves = half_steps(method.degree);
   if (halves != nullptr) record.steps_in_halves = *halves;
   if (is_ok()) verdict = judge_total_error(method, std::move(verdict), record);
+  if (is_ok()) verdict.add(remark_on_polygons(method, record));
   if (is_ok() && halves != nullptr && !method.in_displacements)
     for (const std::string& remark : remarks_on_half_steps(record)) verdict.add(remark);
   return verdict;

@@ -225,6 +225,19 @@ std::vector<std::string> remarks_on_half_steps(const Record& record) {
   return remarks;
 }
 
+std::string remark_on_polygons(const Method& method, const Record& record) {
+  if (record.polygons.empty()) return "";
+  // P3's and P4's error is to stresses that follow the curves: η is not of their chords.
+  const bool is_of_chords = !method.in_displacements || method.degree == 1;
+  return fmt::format(
+      "curves that are solved as polygons: {}{}", record.polygons,
+      !record.error_discretisation || !record.error_geometry ? ""
+      : is_of_chords
+          ? fmt::format("; its total error contains η = {:.2g} % for them",
+                        100 * *record.error_geometry)
+          : "; its total error contains that");
+}
+
 std::string remark_on_large_strains(const Problem& problem, const StressField& stress) {
   constexpr double largest_small = 0.1;
   double largest = 0;
@@ -246,6 +259,7 @@ void note(const TotalError& total, const ConstitutiveError& last, const std::str
   record.error_discretisation = total.relative();
   record.no_discretisation_error = total.flaw();
   if (total.relative()) record.discretisation_by = by;
+  if (total.geometry() > 0) record.error_geometry = total.geometry();
   if (total.relative(total.steps() - 1) && is_verified(record))
     record.error_mean = last.relative_of_mean + record.error_stress.value_or(0) / 2;
   if (last.guaranteed) {

@@ -65,6 +65,8 @@ std::vector<std::string> remarks_on_what_is_idle(const Problem& problem, const V
 // Half-size load steps change, in any step, how many points stick or slip, or the resultant by over
 // 1 %:
 std::vector<std::string> remarks_on_half_steps(const Record& record);
+// Curves that it solves as polygons (Record::polygons), and what of the total error is theirs:
+std::string remark_on_polygons(const Method& method, const Record& record);
 // Strains above 10 %; else empty:
 std::string remark_on_large_strains(const Problem& problem, const StressField& stress);
 

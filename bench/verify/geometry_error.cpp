@@ -8,6 +8,7 @@
 #include "assembly/elements/curved_side.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "mesh/boundary_sides.hpp"
+#include "mesh/curved_groups.hpp"
 #include "mesh/supposed_curves.hpp"
 
 namespace airybench {
@@ -129,6 +130,18 @@ std::vector<double> geometry_error(const Problem& problem, const StressField& st
     if (const auto [t, k] = sides[row]; !side[row].is_edge())
       squared[t] += squared_error(problem, stress, t, k, static_cast<int>(row), side[row]);
   return squared;
+}
+
+std::string polygon_groups(const Problem& problem, int degree) {
+  const Mesh& mesh = problem.mesh;
+  CurvedGroups groups(mesh);
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
+    if (const BoundaryEdge& edge = mesh.boundary[row];
+        !edge.curve.is_straight() && !problem.follows_curve(row, degree))
+      groups.add(edge, edge.curve.sagitta());
+  for (const SupposedCurve& curve : supposed_curves(mesh))
+    groups.add(mesh.boundary[curve.boundary_row], curve.sagitta_mm());
+  return groups.words();
 }
 
 }  // namespace airybench

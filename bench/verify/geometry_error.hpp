@@ -24,6 +24,7 @@
 // is local; fitted to seven shapes, ν up to 0.4999, not proven.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "assembly/stress_field.hpp"
@@ -32,5 +33,9 @@ namespace airybench {
 
 // η² per triangle, N mm; all zero where no side is curved.
 std::vector<double> geometry_error(const Problem& problem, const StressField& stress);
+
+// The groups with curved sides that stresses of a degree take as chords (displacements: those of
+// degree 1), and how far these are off (curved_groups.hpp); empty: there are none.
+std::string polygon_groups(const Problem& problem, int degree);
 
 }  // namespace airybench

@@ -26,6 +26,8 @@ class TotalError {
   std::optional<double> relative(int step) const;
   // The largest of all steps; empty: a step has a flaw, or none has stress.
   std::optional<double> relative() const;
+  // η / ‖σ‖ of curved sides (geometry_error.hpp), a part of it; 0: there are none.
+  double geometry() const;
   const std::string& flaw() const { return flaw_; }  // the first; empty: none
 
   // Per triangle Σ e_T² / ‖σ‖² over the steps, what refinement is to lower.
@@ -35,6 +37,7 @@ class TotalError {
   struct Step {
     double norm;  // of the answer's stresses, √(N mm)
     std::optional<double> relative;
+    double geometry;
   };
   std::vector<Step> of_step_;
   std::vector<double> parts_;
