@@ -20,6 +20,10 @@ CurveGeometry::CurveGeometry(int curve) : curve_(curve) {
   gmsh::model::getParametrizationBounds(1, curve, low, high);
   low_ = low.at(0);
   high_ = high.at(0);
+  gmsh::model::getValue(1, curve, {low_, (low_ + high_) / 2, high_}, xyz);
+  const Eigen::Vector3d start(xyz.data()), middle(&xyz[3]), end(&xyz[6]);
+  constexpr double rounding = 1e-9;
+  is_closed_ = (end - start).norm() < rounding * (middle - start).norm();
   gmsh::model::mesh::getNodes(nodes, xyz, parameters, 1, curve, /*includeBoundary=*/true);
   if (parameters.size() != nodes.size()) return;
   for (std::size_t k = 0; k < nodes.size(); ++k) parameter_.emplace(nodes[k], parameters[k]);
@@ -32,7 +36,7 @@ std::vector<Eigen::Vector3d> CurveGeometry::between(std::size_t node, std::size_
   // Where a closed curve begins it also ends; Gmsh tells one of the two parameters.
   const double half = (high_ - low_) / 2;
   for (double* seam : {&start, &end})
-    if (std::abs(end - start) > half && (*seam == low_ || *seam == high_))
+    if (is_closed_ && std::abs(end - start) > half && (*seam == low_ || *seam == high_))
       *seam = *seam == low_ ? high_ : low_;
   constexpr int parts = 2 * EdgeCurve::max_degree;
   std::vector<double> parameters, xyz;
@@ -72,14 +76,15 @@ std::vector<std::size_t> SideNodes::between(std::size_t from, std::size_t to) co
   return nodes;
 }
 
-EdgeCurve curve_through(const std::vector<Eigen::Vector2d>& points_mm, double mm_per_unit) {
+std::optional<EdgeCurve> curve_through(const std::vector<Eigen::Vector2d>& points_mm,
+                                       double mm_per_unit) {
   constexpr double most_of_sagitta = 0.01;
   const std::size_t most = EdgeCurve::max_degree + 1, stride = points_mm.size() > most ? 2 : 1;
   std::vector<Eigen::Vector2d> points;
   for (std::size_t k = 0; k < points_mm.size(); k += stride) points.push_back(points_mm[k]);
-  if (points.size() < 3) return {};
+  if (points.size() < 3) return EdgeCurve{};
   const EdgeCurve curve = EdgeCurve{points};
-  if (curve.sagitta() <= rounding_of_points(points, mm_per_unit)) return {};
+  if (curve.sagitta() <= rounding_of_points(points, mm_per_unit)) return EdgeCurve{};
   for (std::size_t k = 1; stride == 2 && k < points_mm.size(); k += 2) {
     const double t = static_cast<double>(k) / static_cast<double>(points_mm.size() - 1);
     if ((curve.at(t) - points_mm[k]).norm() > most_of_sagitta * curve.sagitta()) return {};

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,7 @@ class CurveGeometry {
  private:
   int curve_;
   double low_ = 0, high_ = 0;
+  bool is_closed_ = false;
   std::map<std::size_t, double> parameter_;  // of its nodes
 };
 
@@ -40,9 +42,10 @@ class SideNodes {
   std::map<std::array<std::size_t, 2>, std::vector<std::size_t>> inside_;  // from low to high
 };
 
-// Through points at equidistant parameters. Straight within the rounding of the points; straight,
-// too, if there are more points than a curve has coefficients, and it misses them by more than a
-// hundredth of its sagitta: the curve bends between two nodes.
-EdgeCurve curve_through(const std::vector<Eigen::Vector2d>& points_mm, double mm_per_unit);
+// Through points at equidistant parameters; straight within the rounding of the points. None if
+// there are more points than a curve has coefficients, and it misses them by more than a hundredth
+// of its sagitta: the curve bends between two nodes.
+std::optional<EdgeCurve> curve_through(const std::vector<Eigen::Vector2d>& points_mm,
+                                       double mm_per_unit);
 
 }  // namespace airybench

@@ -45,6 +45,11 @@ class ModelReader {
       notes.emplace_back(
           "of elements of higher order, sides of the boundary keep their curves; others are "
           "chords");
+    if (bent_between_nodes_ > 0)
+      notes.push_back(
+          fmt::format("{} sides stay chords, since their curve bends between two nodes (allowed: a "
+                      "finer mesh)",
+                      bent_between_nodes_));
     if (quadrilaterals_ > 0)
       notes.push_back(
           fmt::format("{} quadrilaterals are split by the shorter diagonal", quadrilaterals_));
@@ -309,8 +314,11 @@ class ModelReader {
     if (points_mm.empty()) return;
     points_mm.front() = model_.position.at(side[0]);
     points_mm.back() = model_.position.at(side[1]);
-    if (EdgeCurve curve = curve_through(points_mm, model_.mm_per_unit); !curve.is_straight())
-      model_.bent_sides.emplace(side, std::move(curve));
+    const std::optional<EdgeCurve> curve = curve_through(points_mm, model_.mm_per_unit);
+    if (!curve)
+      ++bent_between_nodes_;
+    else if (!curve->is_straight())
+      model_.bent_sides.emplace(side, *curve);
   }
   // Where there is no geometry.
   void bend_as_elements(const Nodes& side) {
@@ -376,7 +384,7 @@ class ModelReader {
   std::array<int, 2> axes_ = {0, 1};  // that are x and y here
   PlaneModel model_;
   std::vector<int> empty_surfaces_;
-  int quadrilaterals_ = 0;
+  int quadrilaterals_ = 0, bent_between_nodes_ = 0;
   bool is_reduced_ = false;
 };
 

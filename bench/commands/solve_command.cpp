@@ -29,8 +29,9 @@ namespace {
 
 constexpr const char* solve_footer = R"(
 MODEL is a mesh or a Gmsh model; an input deck (.inp) brings its own scene. The mesh is adapted until the total error, relative in
-energy, is met; with :force or :pressure until the interval of F_n or of the largest pressure is as narrow, ± relative, of all
-faces together and of each that carries more than 1 % of the load.
+energy, is met, and the largest stress, where it is bounded, is known to twice that or no better on five finer meshes; with
+:force or :pressure until the interval of F_n or of the largest pressure is as narrow, ± relative, of all faces together and of
+each that carries more than 1 % of the load.
 In OUT: the picture figures/part.png, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), meshes and
 records; with --html all that is printed and the picture in part.html, one page that stands alone.
 
@@ -93,6 +94,8 @@ Options parse_solve(int argc, const char* const* argv, Goal& goal, bool& html) {
   if (!scene.empty()) options.run.scenes = {scene};
   goal = goal_of(error);
   options.run.adapt.goals = {{.error = goal.error, .unknowns = {}}};
+  constexpr double of_stress = 2;  // times the error in energy
+  if (goal.of == Quantity::energy) options.run.adapt.stress_error = of_stress * goal.error;
   read_degree(degree, false, options.run);
   return options;
 }

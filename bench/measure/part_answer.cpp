@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -47,24 +49,29 @@ class PartReader {
       answer.free_motion = words_of_open_motions(rigid_contact(problem_));
     if (w && answer.free_motion.empty())
       answer.displacement_mm = largest_displacement(with_rigid_motion(problem_, *w));
-    std::tie(answer.von_mises, answer.principal) = largest_stresses(stress_);
-    for (LargestStress* largest : {&answer.von_mises, &answer.principal})
-      largest->unbounded = singular_place_near(largest->at_mm, largest->triangle);
-    if (w && error_ != nullptr) {
-      const auto [von_mises, principal] = largest_stresses(stress_of_displacement(problem_, *w));
-      // For one unit of energy density: von Mises² ≤ 3 G σ:C:σ, principal² ≤ A_nnnn σ:C:σ.
-      const auto estimate = [&](LargestStress& largest, double of_displacements, int component,
-                                double factor) {
-        const int t = largest.triangle;
-        const Eigen::Matrix3d A = elasticity_of(problem_.compliance_of(t));
-        largest.off_MPa =
-            twice_estimated_error_MPa(problem_, *error_, t, factor * A(component, component),
-                                      largest.value - of_displacements, std::abs(largest.value));
-      };
-      estimate(answer.von_mises, von_mises.value, 2, 3);
-      estimate(answer.principal, principal.value, 0, 1);
-    }
+    judge_largest_stresses(w, answer);
     return answer;
+  }
+
+  std::optional<StressDoubt> stress_doubt(const std::optional<DisplacementField>& w) const {
+    PartAnswer answer;
+    judge_largest_stresses(w, answer);
+    StressDoubt doubt;
+    std::array<double, 2> least = {infinity, infinity};  // that may be the largest
+    for (const auto& [largest, from] :
+         {std::pair(&answer.von_mises, &least[0]), {&answer.principal, &least[1]}})
+      if (const double value = std::abs(largest->value);
+          !largest->unbounded && largest->off_MPa && value > 0) {
+        doubt.relative = std::max(doubt.relative, *largest->off_MPa / value);
+        *from = value - *largest->off_MPa;
+      }
+    if (std::ranges::min(least) == infinity) return {};
+    each_sample(stress_, [&](int t, const Eigen::Vector2d&, double of_mises, double principal) {
+      if ((of_mises >= least[0] || std::abs(principal) >= least[1]) &&
+          (doubt.triangles.empty() || doubt.triangles.back() != t))
+        doubt.triangles.push_back(t);
+    });
+    return doubt;
   }
 
   // Gap, slip and state are those of the nearest contact point.
@@ -103,6 +110,28 @@ class PartReader {
   }
 
  private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  void judge_largest_stresses(const std::optional<DisplacementField>& w, PartAnswer& answer) const {
+    std::tie(answer.von_mises, answer.principal) = largest_stresses(stress_);
+    for (LargestStress* largest : {&answer.von_mises, &answer.principal})
+      largest->unbounded = singular_place_near(largest->at_mm, largest->triangle);
+    if (w && error_ != nullptr) {
+      const auto [von_mises, principal] = largest_stresses(stress_of_displacement(problem_, *w));
+      // For one unit of energy density: von Mises² ≤ 3 G σ:C:σ, principal² ≤ A_nnnn σ:C:σ.
+      const auto estimate = [&](LargestStress& largest, double of_displacements, int component,
+                                double factor) {
+        const int t = largest.triangle;
+        const Eigen::Matrix3d A = elasticity_of(problem_.compliance_of(t));
+        largest.off_MPa =
+            twice_estimated_error_MPa(problem_, *error_, t, factor * A(component, component),
+                                      largest.value - of_displacements, std::abs(largest.value));
+      };
+      estimate(answer.von_mises, von_mises.value, 2, 3);
+      estimate(answer.principal, principal.value, 0, 1);
+    }
+  }
+
   int rows() const { return static_cast<int>(mesh_.boundary.size()); }
   std::string label(int row) const { return boundary_label(mesh_, mesh_.boundary[row]); }
   bool is_contact(int row) const { return mesh_.boundary[row].role == BoundaryRole::contact; }
@@ -183,24 +212,32 @@ class PartReader {
     return largest;
   }
 
+  // visit(triangle, x, von Mises, the principal stress of larger magnitude).
+  template <typename Visit>
+  void each_sample(const StressField& stress, const Visit& visit) const {
+    const StressSamples samples(problem_, stress, 6);
+    for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const StressSamples::Third third = samples.third(t, k);
+        for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i) {
+          const Eigen::Vector3d s = third.stress.col(i);
+          const Eigen::Vector2d principal = principal_stresses(s);
+          visit(t, Eigen::Vector2d(third.at_mm.col(i)), von_mises(problem_, t, s),
+                std::abs(principal(0)) >= std::abs(principal(1)) ? principal(0) : principal(1));
+        }
+      }
+  }
+
   // Von Mises and principal.
   std::pair<LargestStress, LargestStress> largest_stresses(const StressField& stress) const {
     std::pair<LargestStress, LargestStress> both;
     const auto take = [](LargestStress& largest, double value, const Eigen::Vector2d& x, int t) {
       if (std::abs(value) > std::abs(largest.value)) largest = {{value, x}, t, {}, {}};
     };
-    const StressSamples samples(problem_, stress, 6);
-    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-      for (int k = 0; k < 3; ++k) {
-        const StressSamples::Third third = samples.third(t, k);
-        for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i) {
-          const Eigen::Vector3d s = third.stress.col(i);
-          take(both.first, von_mises(problem_, t, s), third.at_mm.col(i), t);
-          for (const double value : principal_stresses(s))
-            take(both.second, value, third.at_mm.col(i), t);
-        }
-      }
-    }
+    each_sample(stress, [&](int t, const Eigen::Vector2d& x, double of_mises, double principal) {
+      take(both.first, of_mises, x, t);
+      take(both.second, principal, x, t);
+    });
     return both;
   }
 
@@ -333,6 +370,10 @@ Json to_json(const FaceAnswer& face) {
 PartFiles part_files(const SolvedFields& fields, const ContactPicture& contact) {
   const PartReader part(fields);
   return {part.answer(fields.w), part.faces_csv(contact)};
+}
+
+std::optional<StressDoubt> stress_doubt(const SolvedFields& fields) {
+  return PartReader(fields).stress_doubt(fields.w);
 }
 
 double von_mises(const Problem& problem, int triangle, const Eigen::Vector3d& stress) {

@@ -64,6 +64,15 @@ struct PartFiles {
 
 // Of the body; stresses are the method's own. contact: of these fields.
 PartFiles part_files(const SolvedFields& fields, const ContactPicture& contact);
+
+// How far the largest stress may be off, and where refinement shows it.
+struct StressDoubt {
+  double relative = 0;         // off_MPa over the value: the worse of von Mises and principal
+  std::vector<int> triangles;  // with stresses within off_MPa of the largest
+};
+// Of those that are not unbounded; empty: both are, or nothing is known.
+std::optional<StressDoubt> stress_doubt(const SolvedFields& fields);
+
 Json to_json(const PartAnswer& answer);
 
 // √(σ:σ 3/2 − …) of (xx, yy, xy) and σ_zz = ν (σ_xx + σ_yy).

@@ -229,13 +229,12 @@ std::string remark_on_polygons(const Method& method, const Record& record) {
   if (record.polygons.empty()) return "";
   // P3's and P4's error is to stresses that follow the curves: η is not of their chords.
   const bool is_of_chords = !method.in_displacements || method.degree == 1;
-  return fmt::format(
-      "curves that are solved as polygons: {}{}", record.polygons,
-      !record.error_discretisation || !record.error_geometry ? ""
-      : is_of_chords
-          ? fmt::format("; its total error contains η = {:.2g} % for them",
-                        100 * *record.error_geometry)
-          : "; its total error contains that");
+  return fmt::format("curves that are solved as polygons: {}{}", record.polygons,
+                     !record.error_discretisation || !record.error_geometry ? ""
+                     : is_of_chords
+                         ? fmt::format("; its total error contains η = {:.2g} % for them",
+                                       100 * *record.error_geometry)
+                         : "; its total error contains that");
 }
 
 std::string remark_on_large_strains(const Problem& problem, const StressField& stress) {

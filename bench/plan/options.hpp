@@ -35,8 +35,10 @@ std::optional<Shard> shard_of(const std::string& text);  // empty unless k/n wit
 struct Adaptation {
   std::vector<AdaptGoal> goals;
   std::optional<double> marking;  // bulk marking: share of the squared error, per level
-  std::string by = "HYBRID";      // method that solves the levels
-  bool goals_only = false;        // make cases only of levels that reach a goal
+  // Largest relative error of the largest stress, by its own estimate, where an error is a goal.
+  std::optional<double> stress_error;
+  std::string by = "HYBRID";  // method that solves the levels
+  bool goals_only = false;    // make cases only of levels that reach a goal
 };
 
 // What is solved, by which methods, and what is asked of it.

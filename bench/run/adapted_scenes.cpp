@@ -128,9 +128,10 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
   set_threads(options.run.cases.threads);
   const heap::Backstop backstop(options.limits.memory_limit_bytes);
   const Method method = adapting_method(options.run.adapt.by);
-  AdaptiveLoop loop(scene, mesh, method,
-                    {options.run.adapt.goals, options.run.adapt.marking, options.limits.timeout_s,
-                     options.limits.memory_limit_bytes, options.run.cases.threads});
+  AdaptiveLoop loop(
+      scene, mesh, method,
+      {options.run.adapt.goals, options.run.adapt.marking, options.run.adapt.stress_error,
+       options.limits.timeout_s, options.limits.memory_limit_bytes, options.run.cases.threads});
   while (channel.receive()) {
     Json answer = Json::object();
     try {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -104,17 +105,32 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& syste
         "--adapt: by={} (allowed: a method with edge displacements, as HYBRID)", method_.name));
   const DisplacementField w =
       recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
-  error.add(constitutive_error(system, solution.stress, solution.F_C, w), prefix);
+  const ConstitutiveError of_step = constitutive_error(system, solution.stress, solution.F_C, w);
+  error.add(of_step, prefix);
+  if (settings_.stress_error) {
+    const SolvedFields fields{system, solution, w, &of_step, nullptr, {}};
+    doubt_ = of_step.flaw.empty() ? stress_doubt(fields) : std::nullopt;
+  }
+}
+
+bool AdaptiveLoop::knows_largest_stress() const {
+  constexpr double least_gain = 0.9;
+  constexpr std::size_t most_levels = 5;
+  return !doubt_ || doubt_->relative <= *settings_.stress_error || doubts_.size() >= most_levels ||
+         (!doubts_.empty() && doubt_->relative > least_gain * doubts_.back());
+}
+
+bool AdaptiveLoop::is_met(const AdaptGoal& goal, const AdaptiveLevel& level) const {
+  return goal.error ? *level.error <= *goal.error && knows_largest_stress()
+                    : level.unknowns >= *goal.unknowns;
 }
 
 void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {
   constexpr int growth = 8;
   constexpr double least_gain = 0.9;
   if (!level.error) return;
-  const auto is_met = [&](const AdaptGoal& goal) {
-    return goal.error ? *level.error <= *goal.error : level.unknowns >= *goal.unknowns;
-  };
-  for (; !reached() && is_met(settings_.goals[goal_]); ++goal_) level.goal = settings_.goals[goal_];
+  for (; !reached() && is_met(settings_.goals[goal_], level); ++goal_)
+    level.goal = settings_.goals[goal_];
   history_.emplace_back(level.unknowns, *level.error);
   if (!reached() && *level.error == 0) ended_ = "the error is zero: there is nothing to refine";
   for (const auto& [unknowns, before] : history_)
@@ -180,6 +196,20 @@ BisectedMesh AdaptiveLoop::bisected_as_expected() {
   return finer;
 }
 
+BisectedMesh AdaptiveLoop::bisected_at_largest_stress() {
+  constexpr int cuts_to_halve = 2;
+  doubts_.push_back(doubt_->relative);
+  expected_ = {};
+  std::vector<bool> is_near(mesh_.vertices.size(), false);
+  for (const int t : doubt_->triangles)
+    for (const int v : mesh_.triangles[t]) is_near[v] = true;
+  std::vector<int> cuts(mesh_.triangles.size(), 0);
+  for (std::size_t t = 0; t < cuts.size(); ++t)
+    if (std::ranges::any_of(mesh_.triangles[t], [&](int v) { return is_near[v]; }))
+      cuts[t] = cuts_to_halve;
+  return bisected(mesh_, cuts);
+}
+
 // Where a contact edge has been cut, so is the one that it faces.
 BisectedMesh AdaptiveLoop::cut_opposite_edges(BisectedMesh finer) const {
   constexpr int most_passes = 20;  // then the edges' triangles are split instead
@@ -199,7 +229,9 @@ BisectedMesh AdaptiveLoop::cut_opposite_edges(BisectedMesh finer) const {
 
 bool AdaptiveLoop::refine() {
   BisectedMesh finer;
-  if (!settings_.marking)
+  if (const auto& error = settings_.goals[goal_].error; error && history_.back().second <= *error)
+    finer = bisected_at_largest_stress();
+  else if (!settings_.marking)
     finer = bisected_as_expected();
   else if (*settings_.marking < 1)
     finer = marked_and_bisected();

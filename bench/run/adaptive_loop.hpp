@@ -14,11 +14,15 @@
 // eight where the solution is smooth, by two to four at corners. Few marked triangles are cut more
 // often, which adds at most a tenth of the triangles. The last levels mark less if e ~ 1/N predicts
 // an overshoot.
+//
+// Where the error is met and the largest stress is not known as well as asked for, the triangles
+// that may have it, and those around them, are halved in size.
 #pragma once
 
 #include <functional>
 
 #include "assembly/problem/scene.hpp"
+#include "bench/measure/part_answer.hpp"
 #include "bench/plan/options.hpp"
 #include "bench/verify/expected_parts.hpp"
 #include "bench/verify/total_error.hpp"
@@ -30,6 +34,9 @@ struct AdaptiveSettings {
   std::vector<AdaptGoal> goals;  // met in this order
   // 0 < marking ≤ 1; 1: uniform refinement; empty: cuts by expected parts.
   std::optional<double> marking;
+  // An error that is a goal is met once the largest stress, if it is bounded, is not off by more
+  // than this, relative (part_answer.hpp), or is no better known on finer meshes.
+  std::optional<double> stress_error;
   double timeout_s = 900;                          // per solve
   std::optional<std::int64_t> memory_limit_bytes;  // per solve
   int threads = 1;
@@ -61,6 +68,9 @@ class AdaptiveLoop {
   bool refine();
   BisectedMesh marked_and_bisected() const;
   BisectedMesh bisected_as_expected();
+  BisectedMesh bisected_at_largest_stress();
+  bool knows_largest_stress() const;
+  bool is_met(const AdaptGoal& goal, const AdaptiveLevel& level) const;
   BisectedMesh cut_opposite_edges(BisectedMesh finer) const;
   void judge_progress(AdaptiveLevel& level);
 
@@ -70,7 +80,9 @@ class AdaptiveLoop {
   AdaptiveSettings settings_;
   std::vector<double> parts_;  // of the squared error, per triangle
   MeshEdges edges_;
-  double squared_ = 0;  // their sum
+  double squared_ = 0;                // their sum
+  std::optional<StressDoubt> doubt_;  // of the last load step's largest stress
+  std::vector<double> doubts_;        // of levels that were refined for it, relative
   // The last refinement: the uncorrected expectation, and the ratios of actual to expected.
   ExpectedParts::Finer expected_;
   double more_triangles_ = 1.2, more_squared_ = 1;

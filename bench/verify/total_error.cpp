@@ -12,9 +12,8 @@ void TotalError::add(const ConstitutiveError& error, const std::string& step, Of
   const double norm = answer == Of::stresses ? error.stress_norm
                                              : std::max(error.stress_norm, error.displacement_norm);
   const double squared = error.squared_Nmm();
-  of_step_.push_back(
-      {norm, error.flaw.empty() ? std::optional(error.relative) : std::nullopt,
-       squared > 0 ? error.relative * std::sqrt(error.geometry_Nmm / squared) : 0});
+  of_step_.push_back({norm, error.flaw.empty() ? std::optional(error.relative) : std::nullopt,
+                      squared > 0 ? error.relative * std::sqrt(error.geometry_Nmm / squared) : 0});
   largest_norm_ = std::max(largest_norm_, norm);
   parts_.resize(error.of_triangle_Nmm.size());
   if (!(squared > 0) || is_unloaded(steps() - 1)) return;

@@ -230,6 +230,30 @@ TEST_F(Convert, SidesKnowTheCurvesOfTheirModel) {
   EXPECT_LT(largest_off(convert_model(folder_ / "quadratic.msh").mesh, 2), 1e-9);
 }
 
+// However few sides its arc has: an open curve has no seam.
+TEST_F(Convert, AnArcOfOneSideIsRound) {
+  for (const int sides : {1, 2, 3}) {
+    const Mesh mesh =
+        convert("quarter.geo",
+                "Point(1) = {1, 0, 0, 2}; Point(2) = {9, 0, 0, 2}; Point(3) = {9, 9, 0, 2};"
+                "Point(4) = {0, 9, 0, 2}; Point(5) = {0, 1, 0, 2}; Point(6) = {0, 0, 0};"
+                "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};"
+                "Circle(5) = {5, 6, 1}; Curve Loop(1) = {1:5}; Plane Surface(1) = {1};"
+                "Transfinite Curve {5} = " +
+                    std::to_string(sides + 1) +
+                    "; Physical Curve(\"displacement\") = {2};"
+                    "Physical Curve(\"force:hole\") = {5}; Physical Surface(\"plate\") = {1};");
+    int found = 0;
+    for (const BoundaryEdge& edge : mesh.boundary) {
+      if (boundary_label(mesh, edge) != "force:hole") continue;
+      ++found;
+      ASSERT_EQ(edge.curve.degree(), 7) << sides;
+      for (const double t : {0.1, 0.5, 0.8}) EXPECT_NEAR(edge.curve.at(t).norm(), 1, 1e-6) << sides;
+    }
+    EXPECT_GE(found, sides);
+  }
+}
+
 TEST_F(Convert, RolesByTheNamesOfTheModel) {
   const std::string named = two_squares_geometry + bodies +
                             replaced(replaced(roles, "\"displacement\"", "\"clamped\""),
