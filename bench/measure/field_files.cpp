@@ -10,6 +10,7 @@
 #include "assembly/total_displacement.hpp"
 #include "bench/measure/part_answer.hpp"
 #include "bench/measure/part_picture.hpp"
+#include "bench/measure/stress_samples.hpp"
 #include "bench/measure/vtu.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "mesh/boundary_sides.hpp"
@@ -132,31 +133,37 @@ std::vector<Number> of_thirds(const std::vector<Number>& of_triangles) {
   return values;
 }
 
+// Thirds are linear triangles for stresses of degree 1, else Lagrange triangles of the
+// displacement's degree, curved where the stresses follow a curve.
 std::string vtu_of_body(const Problem& problem, const StressField& stress,
                         const std::optional<DisplacementField>& u, const ConstitutiveError* error) {
+  const int degree = stress.degree() == 1 ? 1 : stress.degree() + 1;
+  const std::vector<std::array<int, 3>> nodes = lagrange_points(degree);
+  const StressSamples samples(problem, stress, degree);
   VtuGrid grid;
+  grid.cell = degree == 1 ? VtuCell::triangle : VtuCell::lagrange_triangle;
+  grid.per_cell = nodes.size();
   std::vector<double> stresses, across, equivalent, principal;
   std::vector<Eigen::Vector2d> displacements;
   std::vector<std::int32_t> triangles;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const TriangleVertices v = problem.vertices_of(t);
-    for (int c = 0; c < 9; ++c) grid.points.push_back(corner_of_third(v, c));
-    const ElementStress corners = stress.corners(static_cast<std::size_t>(t));
-    stresses.insert(stresses.end(), corners.data(), corners.data() + corners.size());
     triangles.push_back(t + 1);
-    if (!problem.poisson_zz.empty())
-      for (const auto s : corners.colwise()) {
-        const double poisson = problem.poisson_zz[problem.mesh.triangle_body[t]];
-        across.push_back(poisson * (s(0) + s(1)));
-        equivalent.push_back(von_mises(s, poisson));
-        for (const double value : principal_stresses(s)) principal.push_back(value);
+    for (int k = 0; k < 3; ++k) {
+      const StressSamples::Third third = samples.third(t, k);
+      for (const auto& [a, b, c] : nodes) {
+        const Eigen::Index at = samples.place(b, c);
+        const Eigen::Vector3d s = third.stress.col(at);
+        grid.points.emplace_back(third.at_mm.col(at));
+        stresses.insert(stresses.end(), s.begin(), s.end());
+        if (!problem.poisson_zz.empty()) {
+          const double poisson = problem.poisson_zz[problem.mesh.triangle_body[t]];
+          across.push_back(poisson * (s(0) + s(1)));
+          equivalent.push_back(von_mises(s, poisson));
+          for (const double value : principal_stresses(s)) principal.push_back(value);
+        }
+        if (u) displacements.push_back(displacement_at(problem, *u, t, third.lambda.col(at)));
       }
-    if (!u) continue;
-    const Eigen::Matrix<double, 2, 6> values = values_at_nodes(problem, t, *u);
-    for (int c = 0; c < 9; ++c)
-      displacements.push_back(
-          c % 3 == 2 ? displacement_at(problem, *u, t, Eigen::Vector3d::Constant(1. / 3))
-                     : Eigen::Vector2d(values.col((c / 3 + c % 3) % 3)));
+    }
   }
   grid.of_points = vtu_array("stress_MPa", stresses, {"xx", "yy", "xy"});
   if (!across.empty())

@@ -17,9 +17,11 @@
 //   NAME.error.csv    triangle, error_share: 0 to 1, of the squared constitutive relation error,
 //                     contact terms included; triangles in the order of NAME.stress.csv
 //   NAME.mean.csv     as NAME.stress.csv: mean of the stresses and those of the displacements
-//   NAME.vtu          a cell per third, without shared points: stress_MPa (xx, yy, xy),
-//                     stress_zz_MPa, von_mises_MPa, principal_MPa (in the plane) and
-//                     displacement_mm at points; body, triangle, error_share (of the triangle)
+//   NAME.vtu          a cell per third, without shared points: a triangle for stresses of degree 1,
+//                     else a Lagrange triangle of degree k + 1, curved where they follow a curve:
+//                     stress_MPa (xx, yy, xy), stress_zz_MPa, von_mises_MPa, principal_MPa (in the
+//                     plane) and displacement_mm at points; body, triangle, error_share (of the
+//                     triangle)
 //   NAME.contact.vtu  a line per contact edge with two points: the columns of NAME.contact.csv
 //                     but the length; state 0 open, 1 stick, 2 slip
 // Unknown values are left out.

@@ -39,10 +39,11 @@ std::string von_mises_csv(const SolvedFields& fields) {
   std::string text = "third,x_mm,y_mm,von_mises_MPa\n";
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     for (int k = 0; k < 3; ++k) {
-      const auto [at_mm, of_third] = samples.third(t, k);
-      for (Eigen::Index i = 0; i < at_mm.cols(); ++i)
+      const StressSamples::Third third = samples.third(t, k);
+      for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i)
         fmt::format_to(std::back_inserter(text), "{},{:.8g},{:.8g},{:.6g}\n", 3 * t + k + 1,
-                       at_mm(0, i), at_mm(1, i), von_mises(problem, t, of_third.col(i)));
+                       third.at_mm(0, i), third.at_mm(1, i),
+                       von_mises(problem, t, third.stress.col(i)));
     }
   }
   return text;

@@ -19,14 +19,18 @@ class StressSamples {
   struct Third {
     Eigen::Matrix2Xd at_mm;
     Eigen::Matrix3Xd stress;  // xx, yy, xy, MPa
+    Eigen::Matrix3Xd lambda;  // barycentric coordinates in the triangle
   };
   // Columns: (n + 1)(n + 2)/2 points, from the side to the centroid, along it as walked.
   Third third(int triangle, int k) const;
+  // The column with ρ = 1 − c/n, s = b/(n − c).
+  Eigen::Index place(int b, int c) const { return c * (parts_ + 1) - c * (c - 1) / 2 + b; }
 
  private:
   // B_i at x V_k + y V_k+1 + z V4.
   Eigen::VectorXd polynomials(const Eigen::Vector3d& weights) const;
 
+  int parts_;
   const Problem& problem_;
   const StressField& stress_;
   std::vector<std::pair<double, double>> lattice_;  // ρ, s

@@ -31,6 +31,24 @@ std::vector<double> with_z(const std::vector<Eigen::Vector2d>& vectors) {
 
 }  // namespace
 
+std::vector<std::array<int, 3>> lagrange_points(int degree) {
+  std::vector<std::array<int, 3>> points;
+  for (int outside = 0; 3 * outside <= degree; ++outside) {
+    const int n = degree - 3 * outside;  // of the triangle that remains
+    const auto add = [&](int a, int b, int c) {
+      points.push_back({outside + a, outside + b, outside + c});
+    };
+    add(n, 0, 0);
+    if (n == 0) break;
+    add(0, n, 0);
+    add(0, 0, n);
+    for (int i = 1; i < n; ++i) add(n - i, i, 0);
+    for (int i = 1; i < n; ++i) add(0, n - i, i);
+    for (int i = 1; i < n; ++i) add(i, 0, n - i);
+  }
+  return points;
+}
+
 std::string vtu_vectors(const std::string& name, const std::vector<Eigen::Vector2d>& vectors) {
   return vtu_array(name, with_z(vectors), {"x", "y", "z"});
 }

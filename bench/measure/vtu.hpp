@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -14,7 +15,15 @@
 
 namespace airybench {
 
-enum class VtuCell : std::uint8_t { poly_line = 4, triangle = 5 };  // VTK's own numbers
+enum class VtuCell : std::uint8_t {  // VTK's own numbers
+  poly_line = 4,
+  triangle = 5,
+  lagrange_triangle = 69
+};
+
+// Weights of a Lagrange triangle's corners at its points, in VTK's order, times the degree: the
+// corners, the sides 01, 12, 20 without them, then the same of the triangle inside.
+std::vector<std::array<int, 3>> lagrange_points(int degree);
 
 // Cells share no points, so that values at points may jump between cells.
 struct VtuGrid {

@@ -1,6 +1,7 @@
 // The fields of solutions in files: exact where the solution is, read back by VTK.
 #include "bench/measure/field_files.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -8,7 +9,10 @@
 #include <cstdlib>
 
 #include "assembly/problem/pose.hpp"
+#include "bench/measure/stress_samples.hpp"
+#include "bench/measure/vtu.hpp"
 #include "bench/verify/displacement_recovery.hpp"
+#include "mesh/arcs.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
 #include "tests/bench/measure/csv_columns.hpp"
@@ -203,6 +207,56 @@ TEST(FieldFiles, VtkReadsBackWhatIsWritten) {
   EXPECT_EQ(read_back(folder.path(), "P2", " 2>/dev/null"), 1);
   testing::write_text(folder / "P2.vtu", testing::text_of(folder / "HYBRID.vtu"));
   EXPECT_EQ(read_back(folder.path(), "P2", " 2>/dev/null"), 1);
+}
+
+TEST(FieldFiles, ThirdsOfHigherDegreesAreLagrangeTrianglesOnTheCurve) {
+  using Weights = std::vector<std::array<int, 3>>;
+  EXPECT_EQ(lagrange_points(1), (Weights{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+  EXPECT_EQ(lagrange_points(3), (Weights{{3, 0, 0},
+                                         {0, 3, 0},
+                                         {0, 0, 3},
+                                         {2, 1, 0},
+                                         {1, 2, 0},
+                                         {0, 2, 1},
+                                         {0, 1, 2},
+                                         {1, 0, 2},
+                                         {2, 0, 1},
+                                         {1, 1, 1}}));
+  EXPECT_EQ(lagrange_points(5).size(), 21U);
+  EXPECT_EQ(lagrange_points(5)[15], (std::array{3, 1, 1}));
+  const testing::TemporaryFolder folder;
+  Mesh mesh = testing::small_ring(16, 3, 1, 3);
+  EXPECT_EQ(recognise_arcs(mesh), 32);
+  Scene scene;
+  scene.displacement_mm = {0, 0};
+  scene.boundary["force:hole"].pressure_MPa = LinearValue<double>{{10, 10}};
+  const Solved solved(pose(scene, mesh), "HYBRID:k=2");
+  solved.write(folder.path());
+  const Problem& problem = *solved.system.problem;
+  const std::size_t thirds = 3 * problem.mesh.triangles.size();
+  EXPECT_NE(
+      testing::text_of(folder / "a.vtu")
+          .find(fmt::format("NumberOfPoints=\"{}\" NumberOfCells=\"{}\"", 10 * thirds, thirds)),
+      std::string::npos);
+  const StressSamples samples(problem, solved.solution.stress, 3);
+  for (const Problem::RoundTriangle& round : problem.round)
+    for (int k = 0; k < 3; ++k)
+      if (const int row = round.rows[k]; row != Problem::no_row) {
+        const StressSamples::Third third = samples.third(round.triangle, k);
+        const double radius =
+            boundary_label(problem.mesh, problem.mesh.boundary[row]) == "force:hole" ? 1 : 3;
+        for (int b = 0; b <= 3; ++b) {
+          const Eigen::Index at = samples.place(b, 0);
+          EXPECT_NEAR(third.at_mm.col(at).norm(), radius, 1e-9);
+          EXPECT_LT(
+              (problem.vertices_of(round.triangle) * third.lambda.col(at) - third.at_mm.col(at))
+                  .norm(),
+              1e-12);
+        }
+      }
+  const int code = read_back(folder.path(), "a");
+  if (code == 77) GTEST_SKIP() << "no VTK for Python here (Debian: python3-vtk9)";
+  EXPECT_EQ(code, 0);
 }
 
 TEST(FieldFiles, TheElementMapHasARowPerTriangleAndSharesThatSumToOne) {

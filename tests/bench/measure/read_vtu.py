@@ -17,7 +17,7 @@ try:
 except ImportError:
     sys.exit(77)
 
-TRIANGLE, POLY_LINE = 5, 4
+TRIANGLE, POLY_LINE, LAGRANGE_TRIANGLE = 5, 4, 69
 STATES = ["open", "stick", "slip"]
 
 
@@ -48,39 +48,63 @@ def columns(table: dict[str, np.ndarray], *names: str) -> np.ndarray:
     return np.stack([table[name].astype(float) for name in names], axis=-1)
 
 
-def same(what: str, found: np.ndarray, expected: np.ndarray) -> None:
-    if found.shape != expected.shape or not np.allclose(found, expected, rtol=1e-15, atol=0):
+def same(what: str, found: np.ndarray, expected: np.ndarray, off: float = 0) -> None:
+    """off: of the largest number, how far apart they may be."""
+    atol = off * np.abs(expected).max(initial=0)
+    if found.shape != expected.shape or not np.allclose(found, expected, rtol=1e-15, atol=atol):
         sys.exit(f"{what}: {found.ravel()[:5]} {found.shape}, expected {expected.ravel()[:5]} "
                  f"{expected.shape}")
+
+
+def check_curved(grid, points: np.ndarray) -> None:
+    """The sides between thirds are straight, with points where VTK's coordinates say."""
+    at = np.array(grid.GetCell(0).GetParametricCoords()).reshape(-1, 3)
+    r, s = at[:, 0], at[:, 1]
+    weights = np.stack([1 - r - s, r, s], axis=-1)
+    straight = (np.abs(r) < 1e-12) | (np.abs(r + s - 1) < 1e-12)
+    same("sides", points[:, straight], np.einsum("nc,tcx->tnx", weights[straight], points[:, :3]),
+         1e-12)
 
 
 def check_body(folder: Path, name: str):
     grid = read_grid(folder / f"{name}.vtu")
     stress = table(folder / f"{name}.stress.csv")
     points = vtk_to_numpy(grid.GetPoints().GetData())
-    same("points", points[:, :2], columns(stress, "x_mm", "y_mm"))
+    cells = grid.GetNumberOfCells()
+    per_cell = len(points) // cells
+
+    def corners(values: np.ndarray) -> np.ndarray:
+        """Of each cell, as the rows of NAME.stress.csv."""
+        return values.reshape(cells, per_cell, -1)[:, :3].reshape(3 * cells, -1)
+
+    off = 0 if per_cell == 3 else 1e-12
+    same("points", corners(points)[:, :2], columns(stress, "x_mm", "y_mm"), off)
     same("cells", vtk_to_numpy(grid.GetCells().GetConnectivityArray()), np.arange(len(points)))
-    same("types", vtk_to_numpy(grid.GetCellTypesArray()), np.full(len(points) // 3, TRIANGLE))
+    same("types", vtk_to_numpy(grid.GetCellTypesArray()),
+         np.full(cells, TRIANGLE if per_cell == 3 else LAGRANGE_TRIANGLE))
+    if per_cell > 3:
+        check_curved(grid, points.reshape(cells, per_cell, 3))
     of_points, of_cells = arrays_of(grid.GetPointData()), arrays_of(grid.GetCellData())
-    same("stress", of_points["stress_MPa"], columns(stress, "sxx_MPa", "syy_MPa", "sxy_MPa"))
+    same("stress", corners(of_points["stress_MPa"]),
+         columns(stress, "sxx_MPa", "syy_MPa", "sxy_MPa"), off)
     names = [grid.GetPointData().GetArray("stress_MPa").GetComponentName(k) for k in range(3)]
     if names != ["xx", "yy", "xy"]:
         sys.exit(f"components {names}")
     same("triangle", np.repeat(of_cells["triangle"], 3), stress["triangle"].astype(int))
     at_nodes = columns(table(folder / f"{name}.displacement.csv"), "ux_mm", "uy_mm").reshape(-1, 6, 2)
-    u = of_points["displacement_mm"].reshape(-1, 3, 3, 3)  # triangle, third, corner, component
+    u = corners(of_points["displacement_mm"]).reshape(-1, 3, 3, 3)  # triangle, third, corner, component
     for third in range(3):
-        same("displacement", u[:, third, 0, :2], at_nodes[:, third])
-        same("displacement", u[:, third, 1, :2], at_nodes[:, (third + 1) % 3])
+        same("displacement", u[:, third, 0, :2], at_nodes[:, third], off)
+        same("displacement", u[:, third, 1, :2], at_nodes[:, (third + 1) % 3], off)
         centroid = (4 * at_nodes[:, 3:].sum(1) - at_nodes[:, :3].sum(1)) / 9
-        if not np.allclose(u[:, third, 2, :2], centroid, rtol=1e-12, atol=1e-15):
+        if per_cell == 3 and not np.allclose(u[:, third, 2, :2], centroid, rtol=1e-12, atol=1e-15):
             sys.exit("displacement at centroids")
     if (folder / f"{name}.error.csv").exists():
         share = columns(table(folder / f"{name}.error.csv"), "error_share").ravel()
         same("error", of_cells["error_share"], np.repeat(share, 3))
     elif "error_share" in of_cells:
         sys.exit("error_share of no file")
-    return points, of_points, of_cells
+    return corners(points), {key: corners(values) for key, values in of_points.items()}
 
 
 def check_contact(folder: Path, name: str) -> None:
@@ -126,7 +150,7 @@ def draw(path: Path, points: np.ndarray, of_points: dict[str, np.ndarray]) -> No
 
 def main() -> None:
     folder, name = Path(sys.argv[1]), sys.argv[2]
-    points, of_points, _ = check_body(folder, name)
+    points, of_points = check_body(folder, name)
     check_contact(folder, name)
     draw(folder / f"{name}.png", points, of_points)
 
