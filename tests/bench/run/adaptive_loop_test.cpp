@@ -8,7 +8,9 @@
 #include <map>
 #include <set>
 
+#include "mesh/arcs.hpp"
 #include "support/errors.hpp"
+#include "tests/bench/verify/solved.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
@@ -74,6 +76,38 @@ TEST(AdaptiveLoop, SeveralGoalsAreReachedOneAfterTheOther) {
 }
 
 // By expectation there are fewer levels than with bulk marking, and the meshes are as good.
+// A ring under pressure from within, whose energy the first mesh has.
+TEST(AdaptiveLoop, RefinesUntilTheLargestStressIsKnown) {
+  constexpr double pressure = 10, inner = 1, outer = 4, of_stress = 0.01;
+  Mesh mesh = testing::quarter_ring(4, 3, inner, outer);
+  EXPECT_EQ(recognise_arcs(mesh), 8);
+  Scene scene;
+  scene.displacement_mm = {0, 0};
+  for (const char* side : {"displacement:bottom", "displacement:left"})
+    scene.boundary[side].support = BoundaryValues::Support::normal;
+  scene.boundary["force:hole"].pressure_MPa = LinearValue<double>{{pressure, pressure}};
+  AdaptiveSettings settings = until(0.05);
+  settings.stress_error = of_stress;
+  const Method method = select_methods(hybrid_of_degree(2)).front();
+  AdaptiveLoop loop(scene, mesh, method, settings);
+  const std::vector<AdaptiveLevel> levels = levels_of(loop);
+  EXPECT_TRUE(loop.reached());
+  ASSERT_GT(levels.size(), 1U);
+  EXPECT_LT(*levels.front().error, 0.05);
+  EXPECT_FALSE(levels.front().goal);
+  EXPECT_TRUE(levels.back().goal);
+  for (const AdaptiveLevel* level : {&levels.front(), &levels.back()}) {
+    const testing::Solved solved(scene, level->mesh, 2);
+    const ConstitutiveError error = solved.error();
+    const SolvedFields fields{solved.system, solved.hybrid, solved.w, &error, nullptr, {}};
+    EXPECT_EQ(stress_doubt(fields)->relative > of_stress, level == &levels.front());
+    const double exact =
+        pressure * (outer * outer + inner * inner) / (outer * outer - inner * inner);
+    const LargestStress principal = part_answer(fields).principal;
+    EXPECT_NEAR(principal.value, exact, *principal.off_MPa);
+  }
+}
+
 TEST(AdaptiveLoop, WhatIsExpectedOfTheErrorSavesLevels) {
   const Mesh mesh = testing::catalogue_mesh("Mesh0");
   constexpr double goal = 0.002;
