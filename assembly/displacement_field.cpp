@@ -227,7 +227,8 @@ std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int
   return offsets;
 }
 
-PrescribedDisplacement prescribed_displacement(const Problem& problem, int degree) {
+PrescribedDisplacement prescribed_displacement(const Problem& problem, int degree,
+                                               const RollerNormal& roller_normal) {
   return with_degree(degree - 1, [&](auto stress_degree) {
     constexpr int p = stress_degree + 1;
     const int count = displacement_nodes(problem, p);
@@ -250,7 +251,8 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem, int degre
         const EdgeFrame frame = edge_frame(a, b);
         for (int i = 0; i <= p; ++i) {
           if (rollers) {
-            hold_along(frame.normal, frame.normal.dot(u[i]), nodes[i], prescribed);
+            const Eigen::Vector2d n = roller_normal ? roller_normal(row, i) : frame.normal;
+            hold_along(n, n.dot(u[i]), nodes[i], prescribed);
           } else {
             prescribed.at[nodes[i]] = true;
             prescribed.normal.erase(nodes[i]);

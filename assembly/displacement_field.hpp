@@ -73,13 +73,16 @@ NodalForces nodal_forces(const Problem& problem, const StressField& stress);
 Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree = 2);
 
 // Nodes that Γ_D prescribes, with their coefficients (zero elsewhere). Exact if u0 is quadratic on
-// every edge. Two rollers that are not parallel hold their common vertex fully.
+// every edge. Two rollers that are not parallel hold their common vertex fully. roller_normal: at
+// the i-th node of an edge; empty: its chord's.
 struct PrescribedDisplacement {
   std::vector<bool> at;                   // per node: held fully
   std::map<int, Eigen::Vector2d> normal;  // nodes that one roller holds: its normal
   DisplacementField u;
 };
-PrescribedDisplacement prescribed_displacement(const Problem& problem, int degree = 2);
+using RollerNormal = std::function<Eigen::Vector2d(int row, int i)>;
+PrescribedDisplacement prescribed_displacement(const Problem& problem, int degree = 2,
+                                               const RollerNormal& roller_normal = {});
 
 // ∫ b·u + ∫_{Γ_F} f·u, N mm.
 double work_of_loads(const Problem& problem, const DisplacementField& u);

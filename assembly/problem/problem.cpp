@@ -1,8 +1,10 @@
 #include "assembly/problem/problem.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <numeric>
 
 #include "assembly/elements/bernstein.hpp"
 #include "assembly/elements/edge_forces.hpp"
@@ -37,10 +39,67 @@ std::vector<int> central_vertices(const Problem& problem, const MeshPieces& piec
   return central;
 }
 
+bool has_law_normals(const Problem& problem, int row) {
+  return !problem.curve_normals.empty() && problem.curve_normals[row].is_given();
+}
+
 bool may_follow_curve(const Problem& problem, int row) {
   const BoundaryEdge& edge = problem.mesh.boundary[row];
-  if (edge.curve.is_straight() || problem.is_roller(row)) return false;
-  return edge.role != BoundaryRole::contact || !problem.curve_normals.empty();
+  if (edge.curve.is_straight()) return false;
+  const bool has_frame = edge.role == BoundaryRole::contact || problem.is_roller(row);
+  return !has_frame || has_law_normals(problem, row);
+}
+
+// Per piece: whether its displacement edges hold it where rollers are as round as their curves. On
+// one circle it could turn about the centre, against which only the corners of chords hold it.
+std::vector<bool> held_by_curves(const Problem& problem, const MeshPieces& pieces) {
+  constexpr double least = 1e-6;  // eigenvalue of Σ rᵀr, r: along a support of (1, 0), (0, 1), Jx
+  const Mesh& mesh = problem.mesh;
+  const Eigen::Vector2d centre = mesh.vertices.front();
+  double size = 0;
+  for (const Eigen::Vector2d& x : mesh.vertices) size = std::max(size, (x - centre).norm());
+  std::vector<Eigen::Matrix3d> sum(static_cast<std::size_t>(pieces.count), Eigen::Matrix3d::Zero());
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const BoundaryEdge& edge = mesh.boundary[row];
+    if (edge.role != BoundaryRole::displacement) continue;
+    const auto [a, b] = edge.vertices;
+    const EdgeFrame chord = edge_frame(mesh.vertices[a], mesh.vertices[b]);
+    for (const double s : {0., 0.5, 1.}) {
+      const Eigen::Vector2d d = (point_on(mesh, edge, s) - centre) / size,
+                            n = edge.curve.is_straight() ? chord.normal : edge.curve.normal(s);
+      const auto hold = [&](const Eigen::Vector2d& along) {
+        const Eigen::Vector3d r(along.x(), along.y(), d.x() * along.y() - d.y() * along.x());
+        sum[pieces.of_vertex[a]] += r * r.transpose();
+      };
+      hold(n);
+      if (!problem.is_roller(row)) hold({-n.y(), n.x()});
+    }
+  }
+  std::vector<bool> held;
+  for (const Eigen::Matrix3d& of_piece : sum) {
+    const Eigen::Vector3d values =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(of_piece, Eigen::EigenvaluesOnly)
+            .eigenvalues();
+    held.push_back(values(0) > least * values(2));
+  }
+  return held;
+}
+
+void add_roller_normals(Problem& problem) {
+  const std::vector<BoundaryEdge>& boundary = problem.mesh.boundary;
+  const auto is_round = [&](int row) {
+    return problem.is_roller(row) && !boundary[row].curve.is_straight();
+  };
+  std::vector<int> rows(boundary.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  if (std::ranges::none_of(rows, is_round)) return;
+  const MeshPieces pieces = pieces_of(problem.mesh);
+  const std::vector<bool> held = held_by_curves(problem, pieces);
+  problem.curve_normals.resize(boundary.size());
+  for (const int row : rows)
+    if (is_round(row) && held[pieces.of_vertex[boundary[row].vertices[0]]])
+      problem.curve_normals[row] =
+          ContactNormals::along([&](double xi) { return boundary[row].curve.normal(xi); });
 }
 
 // Empty without friction.
@@ -84,7 +143,7 @@ std::optional<CurvedSides> Problem::curves_of(int triangle, int degree) const {
 SideCurve Problem::curve_of(int boundary_row, int degree) const {
   const BoundaryEdge& edge = mesh.boundary[boundary_row];
   SideCurve curve{edge.curve.points_mm, {}, {}};
-  if (edge.role == BoundaryRole::contact) {
+  if (has_law_normals(*this, boundary_row)) {
     const ContactNormals& normals = curve_normals[boundary_row];
     curve.law_normals = normals.all(ContactNormals::max_parts);
     curve.moment_normals = normals.all(degree + 2).subspan(1, static_cast<std::size_t>(degree) + 1);
@@ -122,18 +181,21 @@ EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
   EdgeMoments moments = EdgeMoments::Zero(2, degree + 1);
   const auto& u0 = loads.displacement_mm;
   if (!u0) return moments;
-  if (follows_curve(boundary_row, degree))
-    return CurvedSide<double>(curve_of(boundary_row, degree), degree)
-        .moments_of([&](const Eigen::Vector2d& x) { return u0(x, boundary_row); });
-  const auto [start, end] = mesh.boundary[boundary_row].vertices;
-  const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
-  const std::array<Eigen::Vector2d, 3> coefficients =
-      edge_coefficients(u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
-  for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of(degree, j, coefficients);
-  if (is_roller(boundary_row)) {
-    const Eigen::Vector2d n = edge_frame(a, b).normal;
-    moments = (n * (n.transpose() * moments)).eval();
+  if (follows_curve(boundary_row, degree)) {
+    moments = CurvedSide<double>(curve_of(boundary_row, degree), degree)
+                  .moments_of([&](const Eigen::Vector2d& x) { return u0(x, boundary_row); });
+  } else {
+    const auto [start, end] = mesh.boundary[boundary_row].vertices;
+    const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
+    const std::array<Eigen::Vector2d, 3> coefficients =
+        edge_coefficients(u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
+    for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of(degree, j, coefficients);
   }
+  if (is_roller(boundary_row))
+    for (int j = 0; j <= degree; ++j) {
+      const Eigen::Vector2d n = frame_of_moment(boundary_row, degree, j).normal;
+      moments.col(j) = (n * n.dot(moments.col(j))).eval();
+    }
   return moments;
 }
 
@@ -144,6 +206,7 @@ void find_round_sides(Problem& problem) {
   if (std::ranges::all_of(mesh.boundary,
                           [](const BoundaryEdge& edge) { return edge.curve.is_straight(); }))
     return;
+  add_roller_normals(problem);
   std::vector<int> row_of_edge(static_cast<std::size_t>(problem.edges.count()), Problem::no_row);
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
     if (may_follow_curve(problem, row)) row_of_edge[problem.edges.of_boundary[row]] = row;

@@ -86,6 +86,7 @@ class ContactNormals {
     return {&at(0, n), static_cast<std::size_t>(n) + 1};
   }
   std::span<const Eigen::Vector2d> all() const { return normals_; }
+  bool is_given() const { return !normals_.front().isZero(0); }
   bool operator==(const ContactNormals&) const = default;
 
  private:
@@ -128,7 +129,8 @@ struct Problem {
   FreeMotions free = {};
   std::vector<double> friction = {};  // μ ≥ 0 per row of Mesh::boundary, 0 off Γ_C; empty: none
   std::vector<ContactNormals> contact_normals = {};  // per row; empty: the edges' own
-  // The same along the curves of edges, at ξ = i/n; empty: there are none.
+  // The same along the curves of edges, at ξ = i/n, of rollers, too; zero where an edge has neither
+  // law nor curve; empty: there are none.
   std::vector<ContactNormals> curve_normals = {};
   // Per row: the contact edge of another body that it presses on, walked the other way; none: a
   // wall. Empty: walls only. Its points match those of this edge, and its frames are opposite.
@@ -138,8 +140,9 @@ struct Problem {
     int inserted = 0, moved = 0;
     bool has_curves = false;  // edges stand for curves; the gap is known at three points of each
   } matching = {};
-  // Stresses of degree 2 and more follow curved edges (curved_element.hpp), of a pair both or none;
-  // others, and rollers, take their chords. Triangles and rows in ascending order.
+  // Stresses of degree 2 and more follow curved edges (curved_element.hpp), of a pair both or none,
+  // rollers unless a piece could then move along them; others take their chords. Triangles and rows
+  // in ascending order.
   struct RoundTriangle {
     int triangle;
     std::array<int, 3> rows;  // per side, of Mesh::boundary
@@ -201,7 +204,7 @@ struct Problem {
   // up to the square of that angle.
   bool contact_turns() const;
   // The edge's own frame, on Γ_C the contact law's, at i/n of the way from start to end, on its
-  // chord or on its curve.
+  // chord or on its curve, there of rollers the curve's, too.
   template <typename Scalar = double>
   EdgeFrameIn<Scalar> frame_at(int boundary_row, int i, int n) const {
     return frame_of<Scalar>(contact_normals, boundary_row, i, n);
@@ -246,7 +249,7 @@ struct Problem {
                                int n) const {
     const auto [a, b] = mesh.boundary[boundary_row].vertices;
     const EdgeFrameIn<Scalar> own = edge_frame<Scalar>(mesh.vertices[a], mesh.vertices[b]);
-    if (normals.empty() || mesh.boundary[boundary_row].role != BoundaryRole::contact) return own;
+    if (normals.empty() || !normals[boundary_row].is_given()) return own;
     const Eigen::Vector2<Scalar> normal =
         normals[boundary_row].at(i, n).template cast<Scalar>().normalized();
     return {own.length_mm, {-normal.y(), normal.x()}, normal};
@@ -257,7 +260,8 @@ struct Problem {
 // components on every boundary edge. (With friction others are known than without.)
 bool same_body(const Problem& a, const Problem& b);
 
-// Finds the edges whose curves are followed, which depend on `curve_normals` and `opposite`.
+// Finds the edges whose curves are followed, which depend on `curve_normals` of contact edges and
+// on `opposite`, and adds the normals of rollers.
 void find_round_sides(Problem& problem);
 
 // Takes a valid mesh (see validate()), one compliance per body, loads with the whole u0, and μ on

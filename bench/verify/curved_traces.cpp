@@ -161,7 +161,8 @@ Eigen::Matrix2Xd CurvedTraces::interpolant(const Side& side, const AlongCurve& u
 }
 
 PrescribedDisplacement CurvedTraces::prescribed() const {
-  PrescribedDisplacement prescribed = prescribed_displacement(problem_, degree_);
+  PrescribedDisplacement prescribed = prescribed_displacement(
+      problem_, degree_, [&](int row, int i) { return frame(row, i).normal; });
   const auto& u0 = problem_.loads.displacement_mm;
   if (!u0) return prescribed;
   for (const auto& entry : sides_) {
@@ -173,7 +174,11 @@ PrescribedDisplacement CurvedTraces::prescribed() const {
       const auto of_row = boundary_nodes<k + 1>(problem_, row);
       return std::vector<int>(of_row.begin(), of_row.end());
     });
-    for (int i = 1; i < degree_; ++i) prescribed.u.col(nodes[i]) = u.col(i);
+    for (int i = 1; i < degree_; ++i) {
+      const Eigen::Vector2d n = frame(row, i).normal;
+      prescribed.u.col(nodes[i]) =
+          problem_.is_roller(row) ? Eigen::Vector2d(n * n.dot(u.col(i))) : u.col(i);
+    }
   }
   return prescribed;
 }

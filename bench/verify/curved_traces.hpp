@@ -3,7 +3,8 @@
 //
 // There a field w of degree p is its triangle's polynomial, continued to the curve x(ξ). What is
 // asked of it is asked of its interpolant at the p + 1 Gauss–Lobatto points, in frames R(ξ): x and
-// y where it is held, (n, t) of a contact law. With the Bernstein coefficients of that,
+// y where it is held, (n, t) of a contact law and of rollers. With the Bernstein coefficients of
+// that,
 //
 //   R(ξ)ᵀ w(x(ξ)) ≈ Σ B_i(ξ) c_i,   d_i = R_i c_i,   R_i: frame_of_coefficient()
 //

@@ -81,7 +81,8 @@ double steepness(const TriangleVertices& v) {
 double squared_error_on_curve(const Problem& problem, const StressField& stress, int triangle,
                               int k, int row) {
   const BoundaryRole role = problem.mesh.boundary[row].role;
-  if (role == BoundaryRole::displacement) return 0;
+  const bool is_roller = problem.is_roller(row);
+  if (role == BoundaryRole::displacement && !is_roller) return 0;
   const int degree = stress.degree();
   const double constant = std::exp2(1 - degree);
   const TriangleVertices v = problem.vertices_of(triangle);
@@ -99,8 +100,9 @@ double squared_error_on_curve(const Problem& problem, const StressField& stress,
     Eigen::Vector2d r = -traction(of_third * side.bernstein(centroid, q, 1), n);
     if (role == BoundaryRole::contact)
       r += side.density(forces, q) / length;
-    else if (problem.loads.traction_MPa)
+    else if (role == BoundaryRole::force && problem.loads.traction_MPa)
       r += problem.loads.traction_MPa(side.at(q), n, row);
+    if (is_roller) r -= n * n.dot(r);  // it reacts
     sum += CurvedSide<double>::weight(q) * length * r.squaredNorm();
   }
   return constant * steepness(v) * (v.col((k + 1) % 3) - v.col(k)).norm() *

@@ -201,9 +201,9 @@ class HeldFaces {
     Mesh mesh = problem.mesh;
     for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
       loads_.rollers.push_back(units_->is_roller(row));
-      if (mesh.boundary[row].role != BoundaryRole::contact) continue;
-      mesh.boundary[row].role = BoundaryRole::displacement;
       if (!problem.follows_curve(row, degree)) mesh.boundary[row].curve = {};
+      if (mesh.boundary[row].role == BoundaryRole::contact)
+        mesh.boundary[row].role = BoundaryRole::displacement;
     }
     held_ = std::make_shared<const Problem>(
         make_problem(std::move(mesh), problem.compliance, loads_, 0));

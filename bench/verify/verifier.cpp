@@ -111,8 +111,7 @@ ForcesOnEdge walked(const Problem& problem, const EdgeBalance& balance, int row)
 // Of forces on a boundary edge.
 Eigen::Vector2d resultant_on(const Problem& problem, int row, const ForcesOnEdge& forces) {
   const int degree = static_cast<int>(forces.cols()) - 1;
-  if (problem.mesh.boundary[row].role != BoundaryRole::contact ||
-      !problem.follows_curve(row, degree))
+  if (!problem.condition(row).in_frame || !problem.follows_curve(row, degree))
     return forces * Eigen::VectorXd::Ones(degree + 1);
   const CurvedSide<double> side(problem.curve_of(row, degree), degree);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
@@ -142,8 +141,6 @@ void note_equilibrium(const DualSystem& system, const Solution& solution,
       resultant += on.rowwise().sum();
       continue;
     }
-    const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
-               &b = mesh.vertices[mesh.boundary[row].vertices[1]];
     ForcesOnEdge off = on;
     if (role == BoundaryRole::force && problem.loads.traction_MPa) {
       off -= traction_forces<double>(problem, row, degree);
@@ -155,10 +152,11 @@ void note_equilibrium(const DualSystem& system, const Solution& solution,
         if (m == 2) off.col(j) -= solution.F_C(m * point + 1) * of_law.tangent;
       }
     }
-    if (problem.is_roller(row)) {  // its normal force is free
-      const EdgeFrame frame = edge_frame(a, b);
-      off = (frame.tangent * (frame.tangent.transpose() * off)).eval();
-    }
+    if (problem.is_roller(row))  // its normal force is free
+      for (int j = 0; j <= degree; ++j) {
+        const Eigen::Vector2d t = problem.frame_of_moment(row, degree, j).tangent;
+        off.col(j) = (t * t.dot(off.col(j))).eval();
+      }
     unbalanced = std::max(unbalanced, off.cwiseAbs().maxCoeff());
     resultant += resultant_on(problem, row, on - off);
   }

@@ -49,7 +49,8 @@ Eigen::MatrixXd prescribed_displacements(const Problem& problem, int degree) {
     const auto [a, b] = mesh.boundary[row].vertices;
     EdgeMoments moments = problem.prescribed_moments(row, degree);
     if (problem.is_roller(row)) {
-      moments.row(0) = edge_frame(mesh.vertices[a], mesh.vertices[b]).normal.transpose() * moments;
+      for (int j = 0; j <= degree; ++j)
+        moments(0, j) = problem.frame_of_moment(row, degree, j).normal.dot(moments.col(j));
       moments.row(1).setZero();
     } else if (a > b) {
       moments = moments.rowwise().reverse().eval();

@@ -44,17 +44,21 @@ Mesh with_rim(Mesh mesh, BoundaryRole role) {
   return mesh;
 }
 
+enum class Rim { loaded, held, rolling };
+
 // With the tractions of the exact stress on both circles, rollers on the straight sides.
 Problem quarter(int around, int across, double outer_mm, const ExactStress& exact, double poisson,
-                BoundaryRole rim = BoundaryRole::force) {
+                Rim rim = Rim::loaded) {
   Mesh mesh = testing::quarter_ring(around, across, 1, outer_mm);
   EXPECT_EQ(recognise_arcs(mesh), 2 * around);
   Loads loads;
   for (const BoundaryEdge& edge : mesh.boundary)
-    loads.rollers.push_back(edge.role == BoundaryRole::displacement);
-  mesh = with_rim(std::move(mesh), rim);
-  if (rim == BoundaryRole::displacement)
+    loads.rollers.push_back(edge.role == BoundaryRole::displacement ||
+                            (rim == Rim::rolling && boundary_label(mesh, edge) == "force:rim"));
+  if (rim != Rim::loaded) {
+    mesh = with_rim(std::move(mesh), BoundaryRole::displacement);
     loads.displacement_mm = [poisson](const Point& x, int) { return widened(x, poisson); };
+  }
   loads.traction_MPa = [exact](const Point& x, const Point& n, int) {
     return traction(exact(x), n);
   };
@@ -97,7 +101,7 @@ Judged judged(const Problem& problem, int degree, const ExactStress& exact) {
 }
 
 void expect_order(const ExactStress& exact, double outer_mm, int across, double poisson,
-                  BoundaryRole rim = BoundaryRole::force) {
+                  Rim rim = Rim::loaded) {
   for (int degree = 2; degree <= highest_stress_degree; ++degree) {
     SCOPED_TRACE(::testing::Message() << "degree " << degree << ", Poisson " << poisson);
     const Judged coarse = judged(quarter(4, across, outer_mm, exact, poisson, rim), degree, exact),
@@ -109,7 +113,7 @@ void expect_order(const ExactStress& exact, double outer_mm, int across, double 
     EXPECT_GT(of_hole, degree + 0.5);
     for (const Judged& own : {coarse, fine}) {
       EXPECT_GT(own.total, own.truth);
-      const double most = poisson < 0.4 ? 2.5 : rim == BoundaryRole::force ? 3 : 6;
+      const double most = poisson < 0.4 ? 2.5 : rim == Rim::loaded ? 3 : 6;
       EXPECT_LT(own.total, most * own.truth);
     }
   }
@@ -121,8 +125,35 @@ TEST(RoundSides, ARingUnderPressureIsOfFullOrder) {
 }
 
 TEST(RoundSides, AHeldRimIsOfFullOrder) {
-  expect_order(pressed, 2, 2, 0.3, BoundaryRole::displacement);
-  expect_order(pressed, 2, 2, 0.4999, BoundaryRole::displacement);
+  expect_order(pressed, 2, 2, 0.3, Rim::held);
+  expect_order(pressed, 2, 2, 0.4999, Rim::held);
+}
+
+TEST(RoundSides, ARollingRimIsOfFullOrder) {
+  expect_order(pressed, 2, 2, 0.3, Rim::rolling);
+  expect_order(pressed, 2, 2, 0.4999, Rim::rolling);
+}
+
+// Rollers on one circle would let a ring turn: their chords do not.
+TEST(RoundSides, RollersThatAloneWouldLetTheBodyTurnAreChords) {
+  for (const bool is_alone : {true, false}) {
+    Problem problem = quarter(4, 2, 2, pressed, 0.3, Rim::rolling);
+    Mesh mesh = problem.mesh;
+    Loads loads = problem.loads;
+    for (std::size_t row = 0; row < mesh.boundary.size() && is_alone; ++row)
+      if (boundary_label(mesh, mesh.boundary[row]) != "displacement:rim") {
+        mesh.boundary[row].role = BoundaryRole::force;
+        loads.rollers[row] = false;
+      }
+    problem = make_problem(std::move(mesh), problem.compliance, std::move(loads), 0);
+    for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+      if (const BoundaryEdge& edge = problem.mesh.boundary[row]; !edge.curve.is_straight()) {
+        const bool is_rim = boundary_label(problem.mesh, edge) == "displacement:rim";
+        EXPECT_EQ(problem.follows_curve(row, 2), !is_alone || !is_rim);
+      }
+    const testing::Solved solved(problem, 2);
+    EXPECT_EQ(solved.error().flaw, "");
+  }
 }
 
 // A ring of 1 to 2 mm in a socket that is 2 µm too small: the pressure is the same everywhere.
@@ -180,14 +211,15 @@ TEST(RoundSides, TheLargestStressAtAHoleIsThatOfTheRoundOne) {
 }
 
 TEST(RoundSides, AreInBalanceUnderTheirOwnWeightToo) {
-  for (int degree = 2; degree <= highest_stress_degree; ++degree) {
-    Problem problem = quarter(4, 3, 3, pressed, 0.3);
-    problem.loads.body_force_N_per_mm3 = {3, -2};
-    const testing::Solved solved(problem, degree);
-    const Verification v = verify(solved.system, solved.hybrid, nullptr);
-    EXPECT_LT(*v.equilibrium_residual, 1e-11) << degree;
-    EXPECT_LT(*v.unbalanced_N, 1e-10) << degree;
-  }
+  for (const Rim rim : {Rim::loaded, Rim::rolling})
+    for (int degree = 2; degree <= highest_stress_degree; ++degree) {
+      Problem problem = quarter(4, 3, 3, pressed, 0.3, rim);
+      problem.loads.body_force_N_per_mm3 = {3, -2};
+      const testing::Solved solved(problem, degree);
+      const Verification v = verify(solved.system, solved.hybrid, nullptr);
+      EXPECT_LT(*v.equilibrium_residual, 1e-11) << degree;
+      EXPECT_LT(*v.unbalanced_N, 1e-10) << degree;
+    }
 }
 
 // A ring that only its socket holds, under its own weight and a pull in its hole.
@@ -212,15 +244,17 @@ TEST(RoundSides, OfAFreeBodyAreInBalanceToo) {
 }
 
 TEST(RoundSides, TheReferenceFollowsThemToo) {
-  for (int degree = 1; degree <= highest_stress_degree; ++degree) {
-    const testing::Solved solved(quarter(6, 4, 4, stretched, 0.3), degree);
-    const auto reference = compute_reference(solved.system);
-    const Verification v = verify(solved.system, solved.hybrid, &reference);
-    EXPECT_LT(*v.error_stress, 1e-11) << degree;
-    EXPECT_LT(*v.equilibrium_residual, 1e-11) << degree;
-    EXPECT_LT(*verify(solved.system, solved.hybrid, nullptr).stress_of_moments_off, 1e-11)
-        << degree;
-  }
+  for (const Rim rim : {Rim::loaded, Rim::rolling})
+    for (int degree = 1; degree <= highest_stress_degree; ++degree) {
+      const ExactStress exact = rim == Rim::loaded ? stretched : pressed;
+      const testing::Solved solved(quarter(6, 4, 4, exact, 0.3, rim), degree);
+      const auto reference = compute_reference(solved.system);
+      const Verification v = verify(solved.system, solved.hybrid, &reference);
+      EXPECT_LT(*v.error_stress, 1e-11) << degree;
+      EXPECT_LT(*v.equilibrium_residual, 1e-11) << degree;
+      EXPECT_LT(*verify(solved.system, solved.hybrid, nullptr).stress_of_moments_off, 1e-11)
+          << degree;
+    }
 }
 
 }  // namespace
