@@ -12,8 +12,8 @@
 // gives the friction against it, which the roller bears.
 #pragma once
 
+#include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
-#include "assembly/dual_system.hpp"
 
 namespace airybench {
 

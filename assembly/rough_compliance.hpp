@@ -3,7 +3,7 @@
 // along the tangent on Mesh0..Mesh4.
 #pragma once
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_system.hpp"
 
 namespace airybench {
 

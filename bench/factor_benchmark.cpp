@@ -15,7 +15,7 @@
 #include <map>
 #include <memory>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "assembly/problem/pose.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
@@ -54,12 +54,12 @@ double dgemm_rate() {
 
 Mesh mesh_of(const std::string& name) { return read_msh(data_folder("meshes") / (name + ".msh")); }
 
-const DualSystem& system_of(const std::string& mesh) {
-  static std::map<std::string, DualSystem> systems;
+const AirySystem& system_of(const std::string& mesh) {
+  static std::map<std::string, AirySystem> systems;
   const auto found = systems.find(mesh);
   if (found != systems.end()) return found->second;
   auto problem = std::make_shared<const Problem>(pose(Scene{}, mesh_of(mesh)));
-  return systems.emplace(mesh, assemble(std::move(problem))).first->second;
+  return systems.emplace(mesh, airy_system(std::move(problem))).first->second;
 }
 
 void report(benchmark::State& state, double flops, double op_s, double dgemm_flops_per_s) {
@@ -76,7 +76,7 @@ void report_profile(benchmark::State& state, const SkylineProfile& profile) {
 }
 
 void skyline_factor(benchmark::State& state, const std::string& mesh) {
-  const DualSystem& system = system_of(mesh);
+  const AirySystem& system = system_of(mesh);
   for (auto _ : state) {
     const double rate = dgemm_rate();
     SkylineProfile profile = analyse_skyline(system.S);
@@ -88,7 +88,7 @@ void skyline_factor(benchmark::State& state, const std::string& mesh) {
 }
 
 void skyline_solve(benchmark::State& state, const std::string& mesh) {
-  const DualSystem& system = system_of(mesh);
+  const AirySystem& system = system_of(mesh);
   const SkylineFactor f = factor_ldlt(analyse_skyline(system.S), system.S);
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(system.n(), right_hand_sides);
   for (auto _ : state) {
@@ -103,8 +103,8 @@ void skyline_solve(benchmark::State& state, const std::string& mesh) {
 void multifrontal_factor(benchmark::State& state, int refinements) {
   Mesh mesh = mesh_of("Mesh7");
   for (int k = 0; k < refinements; ++k) mesh = uniformly_refined(mesh);
-  const DualSystem points = assemble(
-      std::make_shared<const Problem>(pose(Scene{}, std::move(mesh))), Blocks::contact_points);
+  const ContactSystem points =
+      contact_system(std::make_shared<const Problem>(pose(Scene{}, std::move(mesh))));
   const HybridizedSystem system = assemble_hybridized(*points.problem, points.contact);
   for (auto _ : state) {
     const double rate = dgemm_rate();

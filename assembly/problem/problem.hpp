@@ -13,7 +13,7 @@
 // holds have motions of their own besides (free_motions.hpp), which enter as ρ does; energies are
 // with these.
 //
-// Every method starts from here; assembly turns it into the Airy system (dual_system.hpp).
+// Every method starts from here; assembly turns it into the Airy system (airy_system.hpp).
 // Coordinates, compliances and load values are exact doubles, the data of the discrete problem;
 // templates over Scalar compute from them in Scalar.
 #pragma once

@@ -46,14 +46,14 @@ struct Condensed {
 };
 
 Condensed condensed_of(const Method& program, const PosedScene& scene) {
-  const Method ours = select_methods(program.in_displacements ? "P2" : "HYBRID").front();
+  const Method ours = select_methods(program.in_displacements() ? "P2" : "HYBRID").front();
   Condensed result;
   RunControl control;
   control.contact.by = [&](const contact::Problem& problem) {
     result.problem = problem;
     return solve_contact(problem);
   };
-  result.F_C = run(ours, assemble(scene.body(), ours.blocks), control).F_C;
+  result.F_C = run(ours, contact_system(scene.body()), control).F_C;
   return result;
 }
 
@@ -118,7 +118,7 @@ Compared check_case(const Method& program, const PosedScene& scene, const CaseSe
   c.about = about.substr(std::min(about.size(), c.seen.made_for.size() + 2));
   Eigen::VectorXd F;
   Method watched = program;
-  watched.solve = [&](const DualSystem& system, const RunControl& control) {
+  watched.solve = [&](const ContactSystem& system, const RunControl& control) {
     Solution answer = program.solve(system, control);
     if (answer.program)
       answer.program->allowed_penetration =

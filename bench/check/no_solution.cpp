@@ -20,7 +20,7 @@ contact::Problem wedged_beam() {
   return beam;
 }
 
-DualSystem with_contradiction(DualSystem system) {
+AirySystem with_contradiction(AirySystem system) {
   Eigen::MatrixXd rows = system.C_F;
   rows.row(1) = rows.row(0);
   system.C_F = rows.sparseView();
@@ -44,9 +44,9 @@ std::shared_ptr<const Problem> pulled_off(const Problem& held) {
 Solution answer_without_solution(const Method& program, const PosedScene& scene,
                                  const RunControl& control) {
   if (program.solve_contact) return run(program.solve_contact, wedged_beam(), control);
-  if (program.blocks == Blocks::airy)
-    return run(program, with_contradiction(assemble(scene.body())), control);
-  return run(program, assemble(pulled_off(*scene.body()), program.blocks), control);
+  if (program.unknowns == Unknowns::airy_function)
+    return run(program, with_contradiction(airy_system(scene.body())), control);
+  return run(program, contact_system(pulled_off(*scene.body())), control);
 }
 
 }  // namespace airybench

@@ -181,7 +181,7 @@ class ProgramSolve {
   std::string chosen_;  // "penalty=500"
 };
 
-Solution solve_airy(const Caller& caller, const DualSystem& system, const RunControl& control) {
+Solution solve_airy(const Caller& caller, const AirySystem& system, const RunControl& control) {
   ProgramSolve program(
       caller, [&] { return airy_files(system, caller.declaration.format); }, control);
   const Eigen::VectorXd x = program.array("x.mtx", system.n(), 1);
@@ -206,7 +206,7 @@ DisplacementField displacement_of(const Problem& problem, const Eigen::MatrixXd&
   return w;
 }
 
-Solution solve_body(const Caller& caller, const DualSystem& system, const RunControl& control) {
+Solution solve_body(const Caller& caller, const ContactSystem& system, const RunControl& control) {
   const Problem& problem = *system.problem;
   ProgramSolve program(
       caller, [&] { return body_files(problem, caller.declaration.format); }, control);
@@ -225,7 +225,7 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
   return solution;
 }
 
-Solution solve_hybridized_body(const Caller& caller, const DualSystem& system,
+Solution solve_hybridized_body(const Caller& caller, const ContactSystem& system,
                                const RunControl& control) {
   const Problem& problem = *system.problem;
   ProgramSolve program(
@@ -329,7 +329,7 @@ Solution solve_contact_law(const Caller& caller,
     *contact_s -= solution.program->not_solve_s;
   if (solution.solve_again)  // the next load step
     solution.solve_again = with_no_answer([caller, again = std::move(solution.solve_again)](
-                                              const DualSystem& s, const RunControl& c) {
+                                              const ContactSystem& s, const RunControl& c) {
       return solve_contact_law(
           caller, [&](const RunControl& own) { return again(s, own); }, s.problem.get(), c);
     });
@@ -342,23 +342,24 @@ Method external_method(const Declaration& declaration,
                        std::optional<std::int64_t> memory_limit_bytes) {
   const Caller caller = {declaration, memory_limit_bytes};
   Method method;
-  std::function<Solution(const Caller&, const DualSystem&, const RunControl&)> solve;
+  std::function<Solution(const Caller&, const ContactSystem&, const RunControl&)> solve;
   switch (declaration.returns) {
     case Declaration::Returns::airy_function:
-      solve = solve_airy;
+      solve = [](const Caller& by, const ContactSystem& s, const RunControl& c) {
+        return solve_airy(by, dynamic_cast<const AirySystem&>(s), c);
+      };
       break;
     case Declaration::Returns::displacement:
-      method.blocks = Blocks::contact_points;
-      method.in_displacements = true;
+      method.unknowns = Unknowns::displacements;
       solve = solve_body;
       break;
     case Declaration::Returns::edge_displacements:
-      method.blocks = Blocks::contact_points;
+      method.unknowns = Unknowns::edge_moments;
       solve = solve_hybridized_body;
       break;
     case Declaration::Returns::contact_forces:
       method = select_methods("HYBRID").front();
-      solve = [of_body = method.solve](const Caller& by, const DualSystem& s,
+      solve = [of_body = method.solve](const Caller& by, const ContactSystem& s,
                                        const RunControl& given) {
         return solve_contact_law(
             by, [&](const RunControl& c) { return of_body(s, c); }, s.problem.get(), given);
@@ -384,7 +385,7 @@ Method external_method(const Declaration& declaration,
       declaration.first_tolerance > 0 ? AccuracyKnob::krylov_tolerance : AccuracyKnob::none;
   method.first_tolerance = declaration.first_tolerance;
   method.solve = with_no_answer(
-      [solve, caller](const DualSystem& s, const RunControl& c) { return solve(caller, s, c); });
+      [solve, caller](const ContactSystem& s, const RunControl& c) { return solve(caller, s, c); });
   return method;
 }
 

@@ -206,7 +206,7 @@ void take_forces(const ContactPoints& contact, const Solution& solution, Contact
 // The state is that of the nearest control point of the edge; if that is prescribed, of an inner
 // one.
 template <int p>
-void take_forces_of_displacements(const DualSystem& system, const Solution& solution,
+void take_forces_of_displacements(const ContactSystem& system, const Solution& solution,
                                   ContactPicture& picture) {
   const Problem& problem = *system.problem;
   const ControlPoints control = control_points(problem, p);
@@ -230,7 +230,7 @@ void take_forces_of_displacements(const DualSystem& system, const Solution& solu
 }
 
 // r = (w_n − (g0 − ρ_n), w_t − (s0 − ρ_t)) as moments, per contact point.
-std::vector<Eigen::Vector2d> moments_of(const DualSystem& system, const DisplacementField& w,
+std::vector<Eigen::Vector2d> moments_of(const ContactSystem& system, const DisplacementField& w,
                                         const std::vector<EdgeFrame>& frames) {
   return with_degree(system.degree, [&](auto degree) {
     constexpr int k = degree, p = k + 1;
@@ -262,7 +262,7 @@ std::vector<Eigen::Vector2d> between_bodies(const ContactPoints& contact,
 
 }  // namespace
 
-ContactPicture contact_picture(const DualSystem& system, const Solution& solution,
+ContactPicture contact_picture(const ContactSystem& system, const Solution& solution,
                                const std::optional<DisplacementField>& w) {
   const ContactPoints& contact = system.contact;
   const bool has_own_points = solution.displacement.cols() == 0;
@@ -311,7 +311,7 @@ bool has_own_displacement(const Solution& solution) {
   return solution.displacement.cols() > 0 || solution.edge_moments.cols() > 0;
 }
 
-SolvedFields own_fields(const DualSystem& system, const Solution& solution) {
+SolvedFields own_fields(const ContactSystem& system, const Solution& solution) {
   SolvedFields fields{system, solution, {}, nullptr, nullptr, {}};
   if (solution.displacement.cols() > 0)
     fields.w = solution.displacement;

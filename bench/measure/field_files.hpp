@@ -32,8 +32,8 @@
 #include <string>
 #include <vector>
 
+#include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
-#include "assembly/dual_system.hpp"
 #include "bench/verify/contact_intervals.hpp"
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/verifier.hpp"
@@ -57,11 +57,11 @@ struct ContactPicture {
 
 // For a displacement method: the tractions of its stresses, the states of its control points. w:
 // the displacement without the problem's rigid motion, if known.
-ContactPicture contact_picture(const DualSystem& system, const Solution& solution,
+ContactPicture contact_picture(const ContactSystem& system, const Solution& solution,
                                const std::optional<DisplacementField>& w);
 
 struct SolvedFields {
-  const DualSystem& system;
+  const ContactSystem& system;
   const Solution& solution;
   // Bernstein coefficients (displacement_field.hpp) without the problem's rigid motion.
   std::optional<DisplacementField> w;
@@ -73,7 +73,7 @@ struct SolvedFields {
 
 bool has_own_displacement(const Solution& solution);  // or the moments that it is recovered from
 // Without error and mean; w if the solution has its own, and finite.
-SolvedFields own_fields(const DualSystem& system, const Solution& solution);
+SolvedFields own_fields(const ContactSystem& system, const Solution& solution);
 
 enum class FieldParts { all, contact };  // contact: the files of the contact points
 

@@ -55,7 +55,7 @@ bool Judge::is_answered(const Solution& solution) const {
   return problem_ ? !solution.stress.empty() : solution.F_C.size() > 0;
 }
 
-JudgedStep Judge::judged(const std::vector<JudgedStep>& before, const DualSystem& system,
+JudgedStep Judge::judged(const std::vector<JudgedStep>& before, const ContactSystem& system,
                          const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
   const int step = static_cast<int>(before.size());
@@ -86,7 +86,7 @@ JudgedStep Judge::judged(const AssembledBlocks& blocks, const Solution& solution
   return {solution.status, verify(*contact_problem_, solution.F_C)};
 }
 
-std::optional<Verification> Judge::verify_as_other_solution(const DualSystem& system,
+std::optional<Verification> Judge::verify_as_other_solution(const ContactSystem& system,
                                                             const Solution& solution,
                                                             const Verification& v,
                                                             double start_off_N) {
@@ -98,7 +98,7 @@ std::optional<Verification> Judge::verify_as_other_solution(const DualSystem& sy
       !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
     return {};
   try {
-    const DualSystem posed = assemble(system.problem, Blocks::contact_points, system.degree);
+    const ContactSystem posed = contact_system(system.problem, system.degree);
     const Reference other = compute_reference(posed, solution.F_C, StartIs::solution);
     if (!(other.error_estimate <= reference_error_at_most())) return {};
     const Verification seen = verify(system, solution, &other);
@@ -119,8 +119,8 @@ Verdict Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps,
   if (is_ok() && solution.program)
     verdict = judge_penetration(steps, solution.program->allowed_penetration, std::move(verdict));
   if (!problem_) return verdict;
-  record.polygons = polygon_groups(*problem_, method.in_displacements ? 1 : method.degree);
-  if (!method.in_displacements || !solution.program) {
+  record.polygons = polygon_groups(*problem_, method.in_displacements() ? 1 : method.degree);
+  if (!method.in_displacements() || !solution.program) {
     note_discretisation(method, record);
   } else if (reference(1) == nullptr) {
     return {has_answer(verdict.status) ? Status::inaccurate : verdict.status,
@@ -132,7 +132,7 @@ Verdict Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps,
   if (halves != nullptr) record.steps_in_halves = *halves;
   if (is_ok()) verdict = judge_total_error(method, std::move(verdict), record);
   if (is_ok()) verdict.add(remark_on_polygons(method, record));
-  if (is_ok() && halves != nullptr && !method.in_displacements)
+  if (is_ok() && halves != nullptr && !method.in_displacements())
     for (const std::string& remark : remarks_on_half_steps(record)) verdict.add(remark);
   return verdict;
 }
@@ -179,10 +179,10 @@ Verdict Judge::judge_method_error(const Case& asked, const std::vector<JudgedSte
             fmt::format("{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law "
                         "and that its stresses are those of its displacements are checked",
                         references(method.degree).missing, *record.error_estimate)};
-  if (!v.error_stress && !method.in_displacements && problem_)
+  if (!v.error_stress && !method.in_displacements() && problem_)
     return {Status::inaccurate, "its error is not known: " + references(method.degree).missing};
   if (is_unstressed)
-    return {Status::unstressed, method.in_displacements
+    return {Status::unstressed, method.in_displacements()
                                     ? "its displacements have no stress: nothing touches or loads "
                                       "what is free of them"
                                     : "the body has no stress: nothing touches or loads it" +

@@ -31,13 +31,13 @@ class Judge {
     return contact_problem_ || reference(blocks.system->degree) != nullptr;
   }
   // before: the steps of the path up to this one.
-  JudgedStep judged(const std::vector<JudgedStep>& before, const DualSystem& system,
+  JudgedStep judged(const std::vector<JudgedStep>& before, const ContactSystem& system,
                     const Solution& solution);
   JudgedStep judged(const AssembledBlocks& blocks, const Solution& solution);  // without a path
   // own: the method's. Fills the record's errors; steps: of the whole path.
   Verdict judge(const Case& asked, const std::vector<JudgedStep>& steps, const Solution& solution,
                 Verdict own, Record& record);
-  void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
+  void write_fields_of(const Method& method, const ContactSystem& system, const Solution& solution,
                        const Record& record, const std::filesystem::path& file);
 
  private:
@@ -66,7 +66,7 @@ class Judge {
   }
   // Against the nearest solution, if that is not the reference's. start_off_N: how far slip is off
   // from which the step starts, Verification::slip_off_N.
-  std::optional<Verification> verify_as_other_solution(const DualSystem& system,
+  std::optional<Verification> verify_as_other_solution(const ContactSystem& system,
                                                        const Solution& solution,
                                                        const Verification& v, double start_off_N);
   // Each is asked of an answer that is ok so far.

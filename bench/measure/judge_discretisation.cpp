@@ -15,8 +15,8 @@
 namespace airybench {
 
 std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
-  if (method.in_displacements && !method.program.empty()) return {};  // it has its own
-  return method.in_displacements || (common_.error_of_displacements && method.degree == 1)
+  if (method.in_displacements() && !method.program.empty()) return {};  // it has its own
+  return method.in_displacements() || (common_.error_of_displacements && method.degree == 1)
              ? Bound::displacement
              : Bound::recovery;
 }
@@ -57,7 +57,7 @@ void add_intervals(const ContactIntervals& intervals, StepMeshError& step) {
   }
 }
 
-std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const DualSystem& system,
+std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const ContactSystem& system,
                                                                        const Solution& reference,
                                                                        const DisplacementField& u) {
   ConstitutiveError error = constitutive_error(system, reference.stress, reference.F_C, u);
@@ -75,7 +75,7 @@ std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const Dua
 }  // namespace
 
 Solve Judge::references_one_by_one(int degree) {
-  return [this, degree, step = 0](const DualSystem&, const RunControl&) mutable {
+  return [this, degree, step = 0](const ContactSystem&, const RunControl&) mutable {
     return answer_of(*reference(degree, step++));
   };
 }
@@ -93,7 +93,7 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   Solve solve = method.solve;
   if (bound == Bound::displacement) {
     solve_load_steps(select_methods(displacements_of_degree(degree + 1)).front(), problem_, {},
-                     [&](int, const DualSystem&, const Solution& answer) {
+                     [&](int, const ContactSystem&, const Solution& answer) {
                        if (answer.status == Status::ok)
                          own_u.push_back({answer.displacement, answer.free_motion_mm});
                      });
@@ -102,32 +102,33 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   }
   Discretisation result;
   std::optional<ResultantLifts> lifts;
-  DualSystem system = assemble(problem_, Blocks::contact_points, degree);
-  solve_load_steps(solve, system, {}, [&](int step, const DualSystem& posed, const Solution& own) {
-    if (own.status != Status::ok) return;
-    if (bound == Bound::displacement) {
-      const auto& [u, free_motion_mm] = own_u[static_cast<std::size_t>(step)];
-      std::optional<DualSystem> moved;  // as these displacements, where a body is free to
-      if (free_motion_mm.size() > 0)
-        set_load_case(moved.emplace(posed), std::make_shared<const Problem>(
-                                                with_free_motion(*posed.problem, free_motion_mm)));
-      std::tie(result.error, result.u) = error_of_displacements(moved ? *moved : posed, own, u);
-    } else {
-      result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
-      result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
-    }
-    result.total.add(
-        result.error, prefix_of(step),
-        bound == Bound::displacement ? TotalError::Of::displacements : TotalError::Of::stresses);
-    result.of_steps.push_back(bounds(result.error));
-    result.intervals.reset();
-    if (bound == Bound::displacement || !result.error.flaw.empty() || !wants_intervals(degree))
-      return;
-    if (!lifts) lifts = resultant_lifts(*problem_, degree);
-    result.intervals =
-        contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
-    if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());
-  });
+  ContactSystem system = contact_system(problem_, degree);
+  solve_load_steps(
+      solve, system, {}, [&](int step, const ContactSystem& posed, const Solution& own) {
+        if (own.status != Status::ok) return;
+        if (bound == Bound::displacement) {
+          const auto& [u, free_motion_mm] = own_u[static_cast<std::size_t>(step)];
+          std::optional<ContactSystem> moved;  // as these displacements, where a body is free to
+          if (free_motion_mm.size() > 0)
+            moved.emplace(posed).set_load_case(
+                std::make_shared<const Problem>(with_free_motion(*posed.problem, free_motion_mm)));
+          std::tie(result.error, result.u) = error_of_displacements(moved ? *moved : posed, own, u);
+        } else {
+          result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
+          result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
+        }
+        result.total.add(result.error, prefix_of(step),
+                         bound == Bound::displacement ? TotalError::Of::displacements
+                                                      : TotalError::Of::stresses);
+        result.of_steps.push_back(bounds(result.error));
+        result.intervals.reset();
+        if (bound == Bound::displacement || !result.error.flaw.empty() || !wants_intervals(degree))
+          return;
+        if (!lifts) lifts = resultant_lifts(*problem_, degree);
+        result.intervals =
+            contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
+        if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());
+      });
   if (result.total.steps() < count_of_steps(*problem_)) return {};
   add_errors(result.total, result.of_steps);
   return result;
@@ -138,9 +139,9 @@ void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Rec
   TotalError total;
   ConstitutiveError error;
   std::vector<StepMeshError> of_steps;
-  DualSystem system = assemble(problem_, Blocks::contact_points);
+  ContactSystem system = contact_system(problem_);
   solve_load_steps(references_one_by_one(1), system, {},
-                   [&](int step, const DualSystem& posed, const Solution& own) {
+                   [&](int step, const ContactSystem& posed, const Solution& own) {
                      const DisplacementField& u =
                          steps[static_cast<std::size_t>(step)].displacement;
                      error = constitutive_error(posed, own.stress, own.F_C,
@@ -165,7 +166,7 @@ void Judge::note_discretisation(const Method& method, Record& record) {
     if (known->intervals) note(*known->intervals, record);
     for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
       record.steps[k].of_mesh = known->of_steps[k];
-  } else if (method.in_displacements) {
+  } else if (method.in_displacements()) {
     const std::string& missing = references(method.degree).missing;
     record.no_discretisation_error = !missing.empty() ? missing
                                      : discretisation_left_out_.empty()
@@ -202,12 +203,12 @@ Verdict Judge::judge_total_error(const Method& method, Verdict so_far, const Rec
                      ? "it has stress, and the reference has none"
                      : fmt::format("its total error is {:.0f} %: nothing of it is known",
                                    100 * *record.error_discretisation))};
-  if (method.in_displacements && !record.error_discretisation && so_far.reason.empty())
+  if (method.in_displacements() && !record.error_discretisation && so_far.reason.empty())
     so_far.add("its total error is not known: " + record.no_discretisation_error);
   return so_far;
 }
 
-void Judge::write_fields_of(const Method& method, const DualSystem& system,
+void Judge::write_fields_of(const Method& method, const ContactSystem& system,
                             const Solution& solution, const Record& record,
                             const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
@@ -221,10 +222,11 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
     fields.error = &known->error;
     if (known->intervals) fields.intervals = &*known->intervals;
     if (common_.mean_fields)
-      fields.mean = mean_stress(
-          *problem_,
-          method.in_displacements ? references(method.degree).steps.back().stress : solution.stress,
-          known->u);
+      fields.mean =
+          mean_stress(*problem_,
+                      method.in_displacements() ? references(method.degree).steps.back().stress
+                                                : solution.stress,
+                      known->u);
   }
   write_fields(file.parent_path(), file.filename(), fields);
 }

@@ -93,7 +93,7 @@ Solution answer_of(const Reference& reference) {
 ReferencePath references_along(const std::shared_ptr<const Problem>& first, int degree,
                                double error_at_most) {
   ReferencePath path;
-  const Solve solve = [&](const DualSystem& system, const RunControl& control) {
+  const Solve solve = [&](const ContactSystem& system, const RunControl& control) {
     path.steps.push_back(compute_reference(system, control.contact.start));
     const double estimate = path.steps.back().error_estimate;
     Solution answer = answer_of(path.steps.back());
@@ -104,8 +104,8 @@ ReferencePath references_along(const std::shared_ptr<const Problem>& first, int 
           estimate, residual));
     return answer;
   };
-  DualSystem system = assemble(first, Blocks::contact_points, degree);
-  solve_load_steps(solve, system, {}, [&](int step, const DualSystem&, const Solution& answer) {
+  ContactSystem system = contact_system(first, degree);
+  solve_load_steps(solve, system, {}, [&](int step, const ContactSystem&, const Solution& answer) {
     if (has_answer(answer.status)) return;
     path.missing =
         step_prefix(step, *first) +
@@ -115,22 +115,22 @@ ReferencePath references_along(const std::shared_ptr<const Problem>& first, int 
   return path;
 }
 
-Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& control,
+Solution solve_path(const Solve& solve, ContactSystem& system, const RunControl& control,
                     const VisitStep& visit, double& watched_s) {
   watched_s = 0;
   if (system.problem->later_steps.empty()) return solve_load_case(solve, system, control);
   const std::shared_ptr<const Problem> first = system.problem;
   Solution path;
   int before_last = 0;
-  Solution last = solve_load_steps(solve, system, control,
-                                   [&](int step, const DualSystem& posed, const Solution& answer) {
-                                     before_last = step;
-                                     take_step(step == 0, step_prefix(step, *first), answer, path);
-                                     if (!visit) return;
-                                     const auto start = std::chrono::steady_clock::now();
-                                     visit(step, posed, answer);
-                                     watched_s += seconds_since(start);
-                                   });
+  Solution last = solve_load_steps(
+      solve, system, control, [&](int step, const ContactSystem& posed, const Solution& answer) {
+        before_last = step;
+        take_step(step == 0, step_prefix(step, *first), answer, path);
+        if (!visit) return;
+        const auto start = std::chrono::steady_clock::now();
+        visit(step, posed, answer);
+        watched_s += seconds_since(start);
+      });
   hand_over(path, last);
   if (last.done_fraction)
     last.done_fraction = (before_last + *last.done_fraction) / count_of_steps(*first);
@@ -179,7 +179,7 @@ std::vector<StepResult> steps_in_halves(const Problem& first, int degree) {
   double first_half_Nmm = 0;
   solve_load_steps(select_methods(hybrid_of_degree(degree)).front(),
                    std::make_shared<const Problem>(with_half_steps(first)), {},
-                   [&](int half, const DualSystem& posed, const Solution& answer) {
+                   [&](int half, const ContactSystem& posed, const Solution& answer) {
                      if (!has_answer(answer.status)) return;
                      const double dissipation = dissipation_Nmm(posed, answer);
                      if (half % 2 == 0) {

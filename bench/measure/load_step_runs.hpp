@@ -43,7 +43,7 @@ struct JudgedStep {
 
 // The last step's answer, with the sums of times and iterations, the largest storage and error
 // estimate, and the worst status. watched_s: time in `visit`, which is part of no stage.
-Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& control,
+Solution solve_path(const Solve& solve, ContactSystem& system, const RunControl& control,
                     const VisitStep& visit, double& watched_s);
 
 // "load step 3 of 20: "; empty for a path of one step.

@@ -314,7 +314,7 @@ class PartReader {
     return {};
   }
 
-  const DualSystem& system_;
+  const ContactSystem& system_;
   const Problem& problem_;
   const Mesh& mesh_;
   const StressField& stress_;

@@ -64,9 +64,7 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
     const OwnerScope scope(MemoryOwner::blocks);
-    if (problem)
-      blocks.system.reset(
-          new DualSystem(assemble(problem, method.blocks, method.degree)));  // no copy
+    if (problem) blocks.system = assemble(method, problem);
     blocks.assembly_samples_s.push_back(seconds_since(start));
     blocks.heap_bytes = heap::live_bytes() - before;
   }
@@ -228,7 +226,7 @@ std::vector<std::string> remarks_on_half_steps(const Record& record) {
 std::string remark_on_polygons(const Method& method, const Record& record) {
   if (record.polygons.empty()) return "";
   // P3's and P4's error is to stresses that follow the curves: η is not of their chords.
-  const bool is_of_chords = !method.in_displacements || method.degree == 1;
+  const bool is_of_chords = !method.in_displacements() || method.degree == 1;
   return fmt::format("curves that are solved as polygons: {}{}", record.polygons,
                      !record.error_discretisation || !record.error_geometry ? ""
                      : is_of_chords

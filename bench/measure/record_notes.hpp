@@ -17,7 +17,7 @@ namespace airybench {
 // What a method needs.
 struct AssembledBlocks {
   // With the loads of the path's first or last step; null if there is no body.
-  std::unique_ptr<DualSystem> system;
+  std::unique_ptr<ContactSystem> system;
   std::vector<double> assembly_samples_s;
   std::int64_t heap_bytes = 0;  // that they hold; 0 without the heap probe
 };

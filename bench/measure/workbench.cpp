@@ -113,7 +113,7 @@ Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& bl
                              : std::max(tightest, method.first_tolerance * settings.target_error);
   if (!method.tune) return choice;
   Tuning tuning;
-  const auto tune = [&](const DualSystem& system, const RunControl& control) {
+  const auto tune = [&](const ContactSystem& system, const RunControl& control) {
     tuning = method.tune(system, control);
     Solution none;
     none.status = Status::skipped;
@@ -128,7 +128,7 @@ Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& bl
     choice.solve = tuning.solve;
   } else {  // every run reports the failure
     choice.solve = [status = tuned.solution.status, message = tuned.solution.message](
-                       const DualSystem&, const RunControl&) {
+                       const ContactSystem&, const RunControl&) {
       Solution solution;
       solution.status = status;
       solution.message = "while choosing parameters: " + message;
@@ -210,7 +210,7 @@ RunControl Workbench::control_of(const CaseSettings& settings, Activity what) co
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
                                 Activity what) {
   const bool in_detail = what == Activity::detail_run;
-  if (problem_ && blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
+  if (problem_ && blocks.system->problem != problem_) blocks.system->set_load_case(problem_);
   const ActivityScope scope(board_, what);
   const RunControl control = control_of(choice.settings, what);
   const bool rss_is_reset = rss::reset_peak();
@@ -220,7 +220,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   Run result;
   VisitStep visit;
   if (in_detail)
-    visit = [&](int, const DualSystem& posed, const Solution& answer) {
+    visit = [&](int, const ContactSystem& posed, const Solution& answer) {
       if (!answer.stress.empty())
         result.judged.push_back(judge_.judged(result.judged, posed, answer));
     };
@@ -271,13 +271,13 @@ void Workbench::write_fields(const Method& method, const Choice& choice,
     return;
   }
   if (run.judged.empty() || run.solution.status == Status::timeout) return;
-  set_load_case(*blocks.system, problem_);
+  blocks.system->set_load_case(problem_);
   StepFields files(file.parent_path(), file.filename(), *problem_);
   const ActivityScope scope(board_, Activity::discretisation);
   double watched_s = 0;
   solve_path(
       choice.solve, *blocks.system, control_of(choice.settings, Activity::detail_run),
-      [&](int step, const DualSystem& posed, const Solution& answer) {
+      [&](int step, const ContactSystem& posed, const Solution& answer) {
         const auto k = static_cast<std::size_t>(step);
         if (answer.stress.empty() || k >= run.judged.size()) return;
         record.steps[k].fields = files.write(step, own_fields(posed, answer), run.judged[k]);

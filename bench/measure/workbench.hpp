@@ -8,9 +8,12 @@
 
 namespace airybench {
 
-// Methods with the same key share their blocks.
-using BlocksKey = std::pair<Blocks, int>;  // and the degree of the stresses
-inline BlocksKey blocks_key(const Method& method) { return {method.blocks, method.degree}; }
+// Methods with the same key share their blocks: those of an AirySystem or not, and the degree of
+// the stresses.
+using BlocksKey = std::pair<bool, int>;
+inline BlocksKey blocks_key(const Method& method) {
+  return {method.unknowns == Unknowns::airy_function, method.degree};
+}
 
 class Workbench {
  public:

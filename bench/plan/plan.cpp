@@ -94,6 +94,7 @@ void describe(const Method& method, Record& record) {
   take_over(method, record);
   record.method = method.name;
   record.general_name = method.identity();
+  record.in_displacements = method.in_displacements();
   record.iterative = method.is_iterative();
 }
 

@@ -42,11 +42,12 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
   if (!body->free.motions.empty() && (external || !method.condenses_contact()))
     return "a body that contact or points alone hold: its motion is found by methods of ours that "
            "condense on the contact points";
-  const std::string why = why_no_blocks(*body, method.blocks);
+  if (method.unknowns != Unknowns::airy_function) return "";
+  const std::string why = why_no_airy_function(*body);
   if (why.empty()) return why;
   std::vector<std::string> others;
   for (const Method& other : methods())
-    if (why_no_blocks(*body, other.blocks).empty()) others.push_back(other.name);
+    if (other.unknowns != Unknowns::airy_function) others.push_back(other.name);
   return fmt::format("{} (methods without one: {})", why, fmt::join(others, ", "));
 }
 
@@ -65,7 +66,7 @@ std::vector<StageDecision> decide_stages(const PosedProblem& posed, const Method
   if (body_of(posed) == nullptr) return {{"contact", true, ""}};
   const Problem& problem = *body_of(posed);
   const MeshSizes sizes = mesh_sizes(problem.mesh);
-  const bool airy = method.blocks == Blocks::airy;
+  const bool airy = method.unknowns == Unknowns::airy_function;
   const bool contact = sizes.contact_edges > 0;
   const bool friction = problem.has_friction();
   const Loads& loads = problem.loads;

@@ -120,7 +120,7 @@ std::vector<ProblemArray> mesh_arrays(const Mesh& mesh) {
   };
 }
 
-std::vector<ProblemArray> airy_arrays(const DualSystem& system) {
+std::vector<ProblemArray> airy_arrays(const AirySystem& system) {
   std::vector<ProblemArray> arrays = {
       {"S", "1", "flexibility in x = phi/scale, symmetric positive definite, diagonal 1",
        whole(system.S), true},

@@ -1,5 +1,5 @@
 // A posed problem as named arrays, independent of the file format: the Airy system
-// (dual_system.hpp) and the contact problem (contact_problem.hpp) of a mesh and a scene, with
+// (airy_system.hpp) and the contact problem (contact_problem.hpp) of a mesh and a scene, with
 // tables that describe every unknown, row and contact point. Indices count from 0.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 
 namespace airybench {
 
@@ -32,7 +32,7 @@ std::vector<ProblemArray> mesh_arrays(const Mesh& mesh);
 // body_force_N_per_mm3.
 std::vector<ProblemArray> body_arrays(const Problem& problem);
 // S, C_F, q, F, scale, unknowns; with contact C_C, F0; force_rows, force_directions per row of C_F.
-std::vector<ProblemArray> airy_arrays(const DualSystem& system);
+std::vector<ProblemArray> airy_arrays(const AirySystem& system);
 // gap and mu; zeros if there are none.
 std::vector<ProblemArray> contact_law_arrays(const ContactPoints& points);
 // D, G, gap, mu; F_C, an answer to compare with, unless `answer` is empty.

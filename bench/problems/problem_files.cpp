@@ -200,7 +200,7 @@ Files write(const Exported& exported, const std::string& format, Json descriptio
 }
 
 // Throws InputError if there is no reference.
-Reference reference_of(const DualSystem& points, const std::string& title) {
+Reference reference_of(const ContactSystem& points, const std::string& title) {
   if (points.contact.count == 0)
     throw InputError(title + ": no contact points (allowed: a scene with contact)");
   try {
@@ -236,7 +236,7 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
         "edges hold)",
         problem.mesh.name));
   const bool fclib = format == "fclib";
-  const std::string why_no_airy = why_no_blocks(problem, Blocks::airy);
+  const std::string why_no_airy = why_no_airy_function(problem);
   const bool contact = std::ranges::any_of(problem.mesh.boundary, [](const BoundaryEdge& edge) {
     return edge.role == BoundaryRole::contact;
   });
@@ -246,11 +246,11 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   exported.append(body_arrays(problem));
   const bool joins_bodies = !problem.opposite.empty();
   exported.airy = !fclib && why_no_airy.empty() && !joins_bodies;
-  if (exported.airy) exported.append(airy_arrays(assemble(posed.body())));
+  if (exported.airy) exported.append(airy_arrays(airy_system(posed.body())));
   Json answer = Json::object();
   Reference reference;
   if (contact || fclib) {
-    const DualSystem points = assemble(posed.body(), Blocks::contact_points);
+    const ContactSystem points = contact_system(posed.body());
     reference = reference_of(points, exported.title);
     answer = {{"F_C_error_estimate", reference.error_estimate},
               {"F_C_natural_map_residual", reference.natural_map_residual}};
@@ -287,7 +287,7 @@ contact::Problem read_contact_problem(const std::filesystem::path& file) {
 #endif
 }
 
-Files airy_files(const DualSystem& system, const std::string& format) {
+Files airy_files(const AirySystem& system, const std::string& format) {
   Exported exported{system.problem->mesh.name, airy_arrays(system)};
   exported.airy = true;
   if (system.contact.count > 0) exported.append(contact_law_arrays(system.contact));

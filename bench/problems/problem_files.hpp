@@ -38,7 +38,7 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format);
 contact::Problem read_contact_problem(const std::filesystem::path& file);
 
 // Input for another solver, without an answer. format: of problem_formats().
-Files airy_files(const DualSystem& system, const std::string& format);     // with gap and mu
+Files airy_files(const AirySystem& system, const std::string& format);     // with gap and mu
 Files contact_files(const contact::Problem& problem, const Problem* body,  // may be null
                     const std::string& format);
 Files body_files(const Problem& problem, const std::string& format);

@@ -34,7 +34,7 @@ namespace {
 
 Method adapting_method(const std::string& name) {
   const auto is_fit = [](const Method& method) {
-    return method.blocks == Blocks::contact_points && !method.in_displacements;
+    return method.unknowns == Unknowns::edge_moments;
   };
   std::string allowed;
   for (const Method& method : methods()) {

@@ -58,7 +58,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   const auto start = std::chrono::steady_clock::now();
   if (!history_.empty() && !refine()) return {};
   const auto problem = std::make_shared<const Problem>(pose(scene_, mesh_));
-  DualSystem system = assemble(problem, Blocks::contact_points, method_.degree);
+  ContactSystem system = contact_system(problem, method_.degree);
 
   RunControl control;
   control.deadline = Deadline::after(settings_.timeout_s);
@@ -68,7 +68,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
     limit.emplace(heap::live_bytes() + *settings_.memory_limit_bytes);
   TotalError error;
   solve_load_steps(method_.solve, system, control,
-                   [&](int step, const DualSystem& posed, const Solution& answer) {
+                   [&](int step, const ContactSystem& posed, const Solution& answer) {
                      limit.reset();
                      judge_step(step_prefix(static_cast<std::size_t>(step), *problem), posed,
                                 answer, error);
@@ -93,7 +93,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   return level;
 }
 
-void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& system,
+void AdaptiveLoop::judge_step(const std::string& prefix, const ContactSystem& system,
                               const Solution& solution, TotalError& error) {
   if (solution.status != Status::ok) {
     ended_ = fmt::format("{} on {} unknowns: {}{}: {}", method_.name, mesh_sizes(mesh_).n_phi,

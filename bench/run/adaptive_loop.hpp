@@ -63,7 +63,7 @@ class AdaptiveLoop {
   const std::string& why_ended() const { return ended_; }  // if not all are reached; else empty
 
  private:
-  void judge_step(const std::string& prefix, const DualSystem& system, const Solution& solution,
+  void judge_step(const std::string& prefix, const ContactSystem& system, const Solution& solution,
                   TotalError& error);
   bool refine();
   BisectedMesh marked_and_bisected() const;

@@ -124,7 +124,7 @@ void add_ends(const Mesh& mesh, const std::vector<int>& rows,
   }
 }
 
-std::vector<ContactEnd> contact_ends(const DualSystem& system, const Eigen::VectorXd& F_C) {
+std::vector<ContactEnd> contact_ends(const ContactSystem& system, const Eigen::VectorXd& F_C) {
   const Mesh& mesh = system.problem->mesh;
   const std::vector<ContactState> states = contact_states(system.contact, F_C);
   std::vector<std::vector<ContactState>> of_row(mesh.boundary.size());
@@ -180,7 +180,7 @@ LargestPressure largest_pressure(const Problem& problem, const StressField& stre
 }
 
 std::optional<ContactIntervals> contact_intervals(
-    const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
+    const ContactSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
     const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts) {
   if (system.contact.count == 0) return {};
   const Problem& problem = *system.problem;

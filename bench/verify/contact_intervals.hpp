@@ -74,7 +74,7 @@ struct ContactIntervals : FaceIntervals {
 
 // Empty without contact. stress, F_C and u are those that `error` was computed from.
 std::optional<ContactIntervals> contact_intervals(
-    const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
+    const ContactSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
     const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts);
 
 struct LargestPressure {

@@ -63,7 +63,7 @@ struct ContactTerms {
 
 // point: the first of an edge; u: its traces.
 template <int k>
-ContactTerms contact_terms(const DualSystem& system, const CurvedTraces& traces, int point,
+ContactTerms contact_terms(const ContactSystem& system, const CurvedTraces& traces, int point,
                            const Eigen::VectorXd& F_C, const DisplacementField& u) {
   constexpr int p = k + 1;
   const Problem& problem = *system.problem;
@@ -121,7 +121,7 @@ void judge_admissibility(const Fields& fields, double highest_gap, double highes
 
 // The allowance covers rounding and the remaining violation of the inequalities.
 template <int k>
-void note_bounds(const DualSystem& system, const Fields& fields, double highest_gap,
+void note_bounds(const ContactSystem& system, const Fields& fields, double highest_gap,
                  ConstitutiveError& error) {
   constexpr double rounding = 1e-12;
   const auto& [stress, F_C, u, energy, energy_of_u] = fields;
@@ -196,7 +196,7 @@ void add_body(const Problem& problem, const CurvedTraces& traces, Fields& fields
 }
 
 template <int k>
-ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
+ConstitutiveError error_of(const ContactSystem& system, const StressField& stress,
                            const Eigen::VectorXd& F_C, const DisplacementField& u) {
   const Problem& problem = *system.problem;
   ConstitutiveError error;
@@ -247,7 +247,7 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
 
 }  // namespace
 
-ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,
+ConstitutiveError constitutive_error(const ContactSystem& system, const StressField& stress,
                                      const Eigen::VectorXd& F_C, const DisplacementField& u) {
   const int of_u = displacement_degree(*system.problem, u) - 1;
   if (of_u != stress.degree())

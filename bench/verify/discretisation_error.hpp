@@ -32,8 +32,8 @@
 
 #include <string>
 
+#include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
-#include "assembly/dual_system.hpp"
 
 namespace airybench {
 
@@ -68,7 +68,7 @@ StressField mean_stress(const Problem& problem, const StressField& stress,
 
 // stress, F_C: from an equilibrium method, at the contact points of `system`; u: of the
 // stresses' degree plus one.
-ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,
+ConstitutiveError constitutive_error(const ContactSystem& system, const StressField& stress,
                                      const Eigen::VectorXd& F_C, const DisplacementField& u);
 
 }  // namespace airybench

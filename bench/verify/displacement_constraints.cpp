@@ -11,7 +11,7 @@ namespace airybench {
 namespace {
 
 template <int k>
-std::map<int, ContactNode> contact_nodes(const DualSystem& system, const CurvedTraces& traces,
+std::map<int, ContactNode> contact_nodes(const ContactSystem& system, const CurvedTraces& traces,
                                          const Eigen::VectorXd& F_C) {
   constexpr int p = k + 1;
   const Problem& problem = *system.problem;
@@ -102,7 +102,7 @@ void move_along_roller(const Eigen::Vector2d& normal, const ContactNode& node, d
 
 }  // namespace
 
-DisplacementConstraints::DisplacementConstraints(const DualSystem& system,
+DisplacementConstraints::DisplacementConstraints(const ContactSystem& system,
                                                  const CurvedTraces& traces,
                                                  const Eigen::VectorXd& F_C)
     : given_(traces.prescribed()), contact_(with_degree(traces.degree() - 1, [&](auto k) {

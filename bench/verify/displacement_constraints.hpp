@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
+#include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
-#include "assembly/dual_system.hpp"
 #include "bench/verify/curved_traces.hpp"
 
 namespace airybench {
@@ -38,7 +38,7 @@ struct ContactNode {
 class DisplacementConstraints {
  public:
   // F_C: of stresses of one degree less than the displacements, which are given by their traces.
-  DisplacementConstraints(const DualSystem& system, const CurvedTraces& traces,
+  DisplacementConstraints(const ContactSystem& system, const CurvedTraces& traces,
                           const Eigen::VectorXd& F_C);
 
   // Sets w to u0 on Γ_D. On Γ_C it takes the proximal step of the contact terms: minimises

@@ -161,7 +161,7 @@ struct JacobiStep {
 
 class Recovery {
  public:
-  Recovery(const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
+  Recovery(const ContactSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
            const Eigen::MatrixXd& edge_moments)
       : problem_(*system.problem),
         element_(Triangle::of_degree(stress.degree() + 1)),
@@ -299,13 +299,13 @@ class Recovery {
 
 }  // namespace
 
-DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
+DisplacementField recovered_displacement(const ContactSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
                                          const Eigen::MatrixXd& edge_moments) {
   return Recovery(system, stress, F_C, edge_moments).displacement();
 }
 
-DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
+DisplacementField admissible_displacement(const ContactSystem& system, const Eigen::VectorXd& F_C,
                                           DisplacementField w) {
   const Problem& problem = *system.problem;
   const auto& element = Triangle::of_degree(displacement_degree(problem, w));

@@ -26,18 +26,18 @@
 // (discretisation_error.hpp).
 #pragma once
 
+#include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
-#include "assembly/dual_system.hpp"
 
 namespace airybench {
 
 // Coefficients of w. stress, F_C and edge_moments belong to one Solution.
-DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
+DisplacementField recovered_displacement(const ContactSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
                                          const Eigen::MatrixXd& edge_moments);
 
 // Makes w admissible: applies the treatment of Γ_D and Γ_C above.
-DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
+DisplacementField admissible_displacement(const ContactSystem& system, const Eigen::VectorXd& F_C,
                                           DisplacementField w);
 
 }  // namespace airybench

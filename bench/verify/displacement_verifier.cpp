@@ -103,7 +103,7 @@ Eigen::Vector2d take_weak_forces(const Problem& problem, const std::vector<bool>
 
 }  // namespace
 
-Verification verify_displacement(const DualSystem& system, const Solution& solution) {
+Verification verify_displacement(const ContactSystem& system, const Solution& solution) {
   const Problem& problem = *system.problem;
   const int degree = system.degree + 1;
   const ControlPoints control = control_points(problem, degree);

@@ -26,7 +26,7 @@ class Face {
   };
 
   // Its highest pressure is that of the edges asked for.
-  Face(const DualSystem& system, const Eigen::VectorXd& F_C, const std::vector<int>& rows,
+  Face(const ContactSystem& system, const Eigen::VectorXd& F_C, const std::vector<int>& rows,
        const std::vector<int>& point_of_row, const std::vector<bool>& asked) {
     const Mesh& mesh = system.problem->mesh;
     const int m = system.contact.components, n = system.contact.per_edge;
@@ -100,7 +100,7 @@ struct Place {
 
 class Places {
  public:
-  Places(const DualSystem& system, const Eigen::VectorXd& F_C, const std::vector<bool>& asked)
+  Places(const ContactSystem& system, const Eigen::VectorXd& F_C, const std::vector<bool>& asked)
       : system_(system),
         asked_(asked),
         problem_(*system.problem),
@@ -224,7 +224,7 @@ class Places {
     return true;
   }
 
-  const DualSystem& system_;
+  const ContactSystem& system_;
   const std::vector<bool>& asked_;
   const Problem& problem_;
   std::vector<ContactState> states_;
@@ -244,7 +244,7 @@ bool grows_towards(const Face& face, const Place& place, double open_MPa) {
 
 }  // namespace
 
-PressurePeak pressure_peak(const DualSystem& system, const Eigen::VectorXd& F_C,
+PressurePeak pressure_peak(const ContactSystem& system, const Eigen::VectorXd& F_C,
                            const std::vector<bool>& asked) {
   const Places places(system, F_C, asked);
   std::vector<Face> faces;

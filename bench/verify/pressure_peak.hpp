@@ -23,7 +23,7 @@
 #include <array>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_system.hpp"
 
 namespace airybench {
 
@@ -35,7 +35,7 @@ constexpr const char* name_of(PressurePeak peak) {
 
 // Of those edges of Γ_C that are asked for, per row of Mesh::boundary. F_C: at the contact points
 // of `system`.
-PressurePeak pressure_peak(const DualSystem& system, const Eigen::VectorXd& F_C,
+PressurePeak pressure_peak(const ContactSystem& system, const Eigen::VectorXd& F_C,
                            const std::vector<bool>& asked);
 
 }  // namespace airybench

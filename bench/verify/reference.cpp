@@ -49,11 +49,11 @@ double solve_contact_to_rounding(const HybridizedSystemIn<Wide>& system, const L
 
 }  // namespace
 
-Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start,
+Reference compute_reference(const ContactSystem& given, const Eigen::VectorXd& start,
                             StartIs start_is) {
-  const Problem& problem = *airy.problem;
+  const Problem& problem = *given.problem;
   const LoadScale scale = load_scale(problem);
-  const auto system = assemble_hybridized<Wide>(problem, airy.contact);
+  const auto system = assemble_hybridized<Wide>(problem, given.contact);
   ElementMatrices K = rounded<double>(system.K);
   MultifrontalStiffness factor(K, system.n_c);
   factor.analyse();
@@ -65,7 +65,7 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
   if (system.n_c > 0) {
     reference.condensed.G = factor.load(system.b.cast<double>());
     reference.condensed.D = factor.compliance();
-    reference.condensed.points = airy.contact;
+    reference.condensed.points = given.contact;
     Eigen::VectorXd F = start;
     if (start_is == StartIs::guess) {
       ContactResult found = solve_contact(reference.condensed, {.start = start});
@@ -85,7 +85,7 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
       refined.last_correction, std::sqrt(stress_norm_squared(problem, reference.stress)));
   // The motion of a free body is that of the double-precision answer.
   reference.error_estimate = std::max({stress_error, force_error, reference.natural_map_residual,
-                                       unbalanced_share(airy.contact.free, reference.F_C)});
+                                       unbalanced_share(given.contact.free, reference.F_C)});
   return reference;
 }
 

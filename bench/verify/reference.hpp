@@ -12,7 +12,7 @@
 // natural map. tests/bench/verify/extended_precision_test.cpp compares it with 128 bits.
 #pragma once
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_system.hpp"
 #include "assembly/stress_field.hpp"
 #include "solvers/contact/condensed.hpp"
 
@@ -31,7 +31,7 @@ struct Reference {
 // which error is small enough. start: initial contact forces; empty: zero. StartIs::solution
 // refines `start` as it is: of several solutions the one near it is found.
 enum class StartIs { guess, solution };
-Reference compute_reference(const DualSystem& system, const Eigen::VectorXd& start = {},
+Reference compute_reference(const ContactSystem& system, const Eigen::VectorXd& start = {},
                             StartIs start_is = StartIs::guess);
 
 }  // namespace airybench

@@ -207,7 +207,7 @@ class HeldFaces {
     }
     held_ = std::make_shared<const Problem>(
         make_problem(std::move(mesh), problem.compliance, loads_, 0));
-    system_ = assemble(held_, method_.blocks, degree);
+    system_ = contact_system(held_, degree);
   }
 
   const LiftUnits& units() const { return *units_; }
@@ -236,7 +236,7 @@ class HeldFaces {
                                                                   int row) {
       return units->motion(x, row, weights, tangential);
     };
-    set_load_case(system_, std::make_shared<const Problem>(with_loads(*held_, std::move(loads))));
+    system_.set_load_case(std::make_shared<const Problem>(with_loads(*held_, std::move(loads))));
     RunControl control;
     control.keep_body = !again_;
     Solution answer = run(again_ ? again_ : method_.solve, system_, control);
@@ -309,7 +309,7 @@ class HeldFaces {
   Method method_;
   Loads loads_;
   std::shared_ptr<const Problem> held_;
-  DualSystem system_;
+  ContactSystem system_;
   Solve again_;  // with the factors of the first solve
 };
 

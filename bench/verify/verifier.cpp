@@ -120,7 +120,7 @@ Eigen::Vector2d resultant_on(const Problem& problem, int row, const ForcesOnEdge
   return sum;
 }
 
-void note_equilibrium(const DualSystem& system, const Solution& solution,
+void note_equilibrium(const ContactSystem& system, const Solution& solution,
                       const EdgeBalance& balance, const LoadScale& scale, Verification& result) {
   const Problem& problem = *system.problem;
   const Mesh& mesh = problem.mesh;
@@ -181,7 +181,7 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
 }
 
 // Of the gap without free motions, where F_C balances the loads on these.
-double work_of_gap(const DualSystem& system, const Eigen::VectorXd& F_C) {
+double work_of_gap(const ContactSystem& system, const Eigen::VectorXd& F_C) {
   const Eigen::VectorXd& gap = system.contact.gap;
   return gap.size() > 0 ? gap.dot(F_C) - work_on_free_motion(*system.problem, system.problem->free,
                                                              system.degree)
@@ -198,7 +198,7 @@ std::string share(double value, double other) {
 
 }  // namespace
 
-double work_of_prescribed(const DualSystem& system, const StressField& stress,
+double work_of_prescribed(const ContactSystem& system, const StressField& stress,
                           const Eigen::VectorXd& F_C) {
   const Problem& problem = *system.problem;
   const double of_gap = work_of_gap(system, F_C);
@@ -225,7 +225,7 @@ Eigen::MatrixXd in_frames(const Problem& problem, Eigen::MatrixXd moments) {
 
 }  // namespace
 
-MomentsCheck check_moments(const DualSystem& system, const Eigen::MatrixXd& edge_moments) {
+MomentsCheck check_moments(const ContactSystem& system, const Eigen::MatrixXd& edge_moments) {
   const Problem& problem = *system.problem;
   const Eigen::MatrixXd moments = in_frames(problem, edge_moments);
   HybridizedSystem hybrid;
@@ -243,8 +243,8 @@ MomentsCheck check_moments(const DualSystem& system, const Eigen::MatrixXd& edge
 
 namespace {
 
-void verify_contact(const DualSystem& system, const Solution& solution, const Reference* reference,
-                    const LoadScale& scale, Verification& result) {
+void verify_contact(const ContactSystem& system, const Solution& solution,
+                    const Reference* reference, const LoadScale& scale, Verification& result) {
   const ContactPoints& points = system.contact;
   const Eigen::VectorXd& F = solution.F_C;
   if (reference == nullptr) return note_contact_forces(points, F, result);
@@ -257,7 +257,7 @@ void verify_contact(const DualSystem& system, const Solution& solution, const Re
       scale.relative_energy(D_norm(D, F - reference->F_C), D_norm(D, reference->F_C));
 }
 
-void verify_moments(const DualSystem& system, const Solution& solution, const LoadScale& scale,
+void verify_moments(const ContactSystem& system, const Solution& solution, const LoadScale& scale,
                     Verification& result) {
   const MomentsCheck check = check_moments(system, solution.edge_moments);
   result.stress_of_moments_off =
@@ -273,7 +273,7 @@ void verify_moments(const DualSystem& system, const Solution& solution, const Lo
 
 }  // namespace
 
-Verification verify(const DualSystem& system, const Solution& solution,
+Verification verify(const ContactSystem& system, const Solution& solution,
                     const Reference* reference) {
   const Problem& problem = *system.problem;
   Verification result;

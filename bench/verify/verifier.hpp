@@ -14,7 +14,7 @@
 #include <limits>
 #include <optional>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_system.hpp"
 #include "assembly/problem/load_scale.hpp"
 #include "bench/verify/reference.hpp"
 #include "solvers/base/solution.hpp"
@@ -56,7 +56,8 @@ struct Verification {
 };
 
 // reference: may be null; then edge moments, if any, and ρ = 1/rough_compliance check the law.
-Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
+Verification verify(const ContactSystem& system, const Solution& solution,
+                    const Reference* reference);
 
 // For a displacement method, whose discrete problem has no reference: judges displacements and
 // forces at the control points (control_points.hpp). Sets no error_*, no complementary energy.
@@ -69,7 +70,7 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 //   n_open, n_stick, n_slip  of a program from trial forces F − ρ r: its F_n is seldom exactly 0
 // A program's weak contact law (ProgramRun::weak_contact) also loads inner nodes of the triangles
 // along Γ_C. What is unbalanced there is part of the resultants.
-Verification verify_displacement(const DualSystem& system, const Solution& solution);
+Verification verify_displacement(const ContactSystem& system, const Solution& solution);
 
 // For a contact problem without a body: the contact law, and the measure that Siconos stops on
 // (fc2d_compute_error; with r = −F, u = W r + q)
@@ -85,10 +86,10 @@ struct MomentsCheck {
   StressField stress;                    // of the edge displacements, u0 on Γ_D; MPa
   Eigen::VectorXd contact_displacement;  // ū_C, mm; rows as in F_C
 };
-MomentsCheck check_moments(const DualSystem& system, const Eigen::MatrixXd& edge_moments);
+MomentsCheck check_moments(const ContactSystem& system, const Eigen::MatrixXd& edge_moments);
 
 // ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n = W − Π*, N mm; F_C at the contact points.
-double work_of_prescribed(const DualSystem& system, const StressField& stress,
+double work_of_prescribed(const ContactSystem& system, const StressField& stress,
                           const Eigen::VectorXd& F_C);
 
 // The parts of verify(): resultants, violations and states of F; states alone; violation of the law

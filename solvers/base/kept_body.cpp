@@ -4,8 +4,8 @@
 
 namespace airybench {
 
-Solve for_the_same_body(const DualSystem& first, Solve solve) {
-  return [body = first.problem, solve = std::move(solve)](const DualSystem& load_case,
+Solve for_the_same_body(const ContactSystem& first, Solve solve) {
+  return [body = first.problem, solve = std::move(solve)](const ContactSystem& load_case,
                                                           const RunControl& control) {
     if (load_case.problem != body && !same_body(*body, *load_case.problem))
       throw std::invalid_argument(

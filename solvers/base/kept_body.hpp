@@ -8,7 +8,7 @@
 //   RunControl control;
 //   control.keep_body = true;
 //   const Solution first = run(method, system, control);
-//   set_load_case(system, other);                        // dual_system.hpp
+//   system.set_load_case(other);                         // contact_system.hpp
 //   const Solution second = run(first.solve_again, system, control);
 //
 // The answer that has solve_again owns the kept body, together with its copies. Not for two threads
@@ -20,6 +20,6 @@
 namespace airybench {
 
 // `solve`, which throws std::invalid_argument for another body than that of the first load case.
-Solve for_the_same_body(const DualSystem& first, Solve solve);
+Solve for_the_same_body(const ContactSystem& first, Solve solve);
 
 }  // namespace airybench

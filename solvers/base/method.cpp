@@ -15,7 +15,7 @@ Solution failed(Status status, const std::string& message) {
 }
 
 // What is wrong with a result that claims success; null: nothing that can be seen here.
-const char* flaw(const Solution& solution, const DualSystem& system) {
+const char* flaw(const Solution& solution, const ContactSystem& system) {
   const Problem& problem = *system.problem;
   const bool in_displacements = solution.displacement.cols() > 0;
   const int degree = system.degree + 1;  // of displacements
@@ -62,7 +62,17 @@ Solution run_any(const SolveAny& solve, const Problem& problem, const RunControl
 
 }  // namespace
 
-Solution run(const Solve& solve, const DualSystem& system, const RunControl& control) {
+std::unique_ptr<ContactSystem> assemble(const Method& method,
+                                        std::shared_ptr<const Problem> problem) {
+  std::unique_ptr<ContactSystem> system;  // made in place: no copies
+  if (method.unknowns == Unknowns::airy_function)
+    system.reset(new AirySystem(airy_system(std::move(problem))));
+  else
+    system.reset(new ContactSystem(contact_system(std::move(problem), method.degree)));
+  return system;
+}
+
+Solution run(const Solve& solve, const ContactSystem& system, const RunControl& control) {
   return run_any(solve, system, control);
 }
 

@@ -2,17 +2,28 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "solvers/base/solution.hpp"
 
 namespace airybench {
 
-using Solve = std::function<Solution(const DualSystem&, const RunControl&)>;
+using Solve = std::function<Solution(const ContactSystem&, const RunControl&)>;
+using SolveAiry = std::function<Solution(const AirySystem&, const RunControl&)>;
 using SolveContact = std::function<Solution(const contact::Problem&, const RunControl&)>;
+
+// A method's function of an AirySystem as one of any system, which must be an AirySystem then, as
+// assemble() makes it.
+template <typename OfAirySystem>
+auto on_airy_system(OfAirySystem function) {
+  return [function = std::move(function)](const ContactSystem& system, const RunControl& control) {
+    return function(dynamic_cast<const AirySystem&>(system), control);
+  };
+}
 
 // One combination of parameters that was tried.
 struct GridPoint {
@@ -38,17 +49,23 @@ enum class AccuracyKnob {
   stop               // RunControl::stop; parameters are chosen for it
 };
 
+// What a method solves for.
+enum class Unknowns {
+  airy_function,
+  edge_moments,
+  displacements,  // of another discrete problem: the stresses do not balance and are not those of
+                  // the reference, so they are judged by the discretisation error alone
+  contact_forces  // of a problem that came condensed
+};
+
 struct Method {
   std::string name = {};            // "SDTIC3"
   std::string family = {};          // "SYMMLQ": the variants and preconditioners of one idea
   std::string preconditioner = {};  // "DTIC3", as preconditioner_names() spells it; empty: none
   std::string summary = {};         // one line
   bool in_paper = false;            // named there; these are run by default
-  Blocks blocks = Blocks::airy;     // what it needs assembled
-  int degree = 1;                   // of its stresses on each third of a triangle
-  // It solves another discrete problem, in displacements: its stresses do not balance and are not
-  // those of the reference, so it is judged by the discretisation error alone.
-  bool in_displacements = false;
+  Unknowns unknowns = Unknowns::airy_function;
+  int degree = 1;                // of its stresses on each third of a triangle
   bool joins_bodies = true;      // solves bodies that press on each other
   bool takes_load_steps = true;  // measures slip from the step before (Loads::slid_mm)
   std::vector<Stage> stages = {Stage::order,   Stage::factor,  Stage::condense,
@@ -68,7 +85,7 @@ struct Method {
   AccuracyKnob knob = AccuracyKnob::none;
   // Chooses parameters for a problem, outside the time of the solve; null: there are none. `solve`
   // chooses and solves.
-  std::function<Tuning(const DualSystem&, const RunControl&)> tune = {};
+  std::function<Tuning(const ContactSystem&, const RunControl&)> tune = {};
 
   const std::string& identity() const { return general_name.empty() ? name : general_name; }
   // Its iteration has a stop to choose.
@@ -80,13 +97,18 @@ struct Method {
     return std::find(stages.begin(), stages.end(), Stage::condense) != stages.end();
   }
   bool is_tightened() const { return first_tolerance > 0; }  // by the harness
+  bool in_displacements() const { return unknowns == Unknowns::displacements; }
 };
+
+// What the method solves.
+std::unique_ptr<ContactSystem> assemble(const Method& method,
+                                        std::shared_ptr<const Problem> problem);
 
 // Runs a method; exceptions become statuses: TimeoutReached, std::bad_alloc, Breakdown, any other
 // std::exception (crashed). A success whose result is incomplete or not finite is a breakdown.
-Solution run(const Solve& solve, const DualSystem& system, const RunControl& control);
+Solution run(const Solve& solve, const ContactSystem& system, const RunControl& control);
 Solution run(const SolveContact& solve, const contact::Problem& problem, const RunControl& control);
-inline Solution run(const Method& method, const DualSystem& system, const RunControl& control) {
+inline Solution run(const Method& method, const ContactSystem& system, const RunControl& control) {
   return run(method.solve, system, control);
 }
 

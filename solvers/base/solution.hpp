@@ -25,7 +25,7 @@ namespace contact {
 struct Problem;
 }
 struct ContactResult;
-struct DualSystem;
+struct ContactSystem;
 struct RunControl;
 
 struct IterationHistory {
@@ -95,7 +95,7 @@ struct Solution {
   std::optional<ProgramRun> program;
   // With RunControl::keep_body, where the method can: solves another load case of the same body
   // with the factor and D of this solve, which it owns (kept_body.hpp).
-  std::function<Solution(const DualSystem& load_case, const RunControl&)> solve_again;
+  std::function<Solution(const ContactSystem& load_case, const RunControl&)> solve_again;
 };
 
 // On the heap and in files, without the vectors of an iteration.

@@ -29,7 +29,7 @@ using CheckContact =
     std::function<ContactCheck(const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement)>;
 
 // The larger of ‖δx‖_S and |δx·(r − Cᵀ δλ)| / ‖δx‖_S.
-double error_norm(const DualSystem& system, const SaddleVector& delta, double norm,
+double error_norm(const AirySystem& system, const SaddleVector& delta, double norm,
                   const WideVector& r) {
   const double work = delta.x.dot(r.cast<double>()) - delta.lambda_F.dot(system.C_F * delta.x) -
                       delta.lambda_C.dot(system.C_C * delta.x);
@@ -38,7 +38,7 @@ double error_norm(const DualSystem& system, const SaddleVector& delta, double no
 
 // What all corrections of an answer have in common.
 struct Checked {
-  const DualSystem& system;
+  const AirySystem& system;
   CheckContact law;
   LoadScale scale;
   const SaddleSolve& solve;
@@ -47,7 +47,7 @@ struct Checked {
 // Of an answer with such a residual, F_C and λ'.
 Correction correction(const Checked& of, const AiryResidual& at, const Eigen::VectorXd& F_C,
                       const Eigen::VectorXd& lambda_C, double corrected_before = 0) {
-  const DualSystem& system = of.system;
+  const AirySystem& system = of.system;
   const auto& [residual, stress_norm] = at;
   Correction result;
   result.delta = {residual.x.cast<double>(), residual.lambda_F.cast<double>(),
@@ -76,7 +76,7 @@ LongSaddleVector in_long(const SaddleVector& answer) {
 
 // The residual of a corrected answer, from the one before: r ← r − [S Cᵀ; C 0] δ, in double. Of a
 // correction that is enough.
-void subtract_product(const DualSystem& system, const Correction& of, LongSaddleVector& r) {
+void subtract_product(const AirySystem& system, const Correction& of, LongSaddleVector& r) {
   const SaddleVector& delta = of.delta;
   Eigen::VectorXd product = of.S_delta;
   product.noalias() += system.C_F.transpose() * delta.lambda_F;
@@ -122,14 +122,14 @@ void check(const Checked& of, const SaddleVector& answer, const RunControl& cont
 
 }  // namespace
 
-void check_airy_answer(const DualSystem& system, const contact::Problem& condensed,
+void check_airy_answer(const AirySystem& system, const contact::Problem& condensed,
                        const SaddleSolve& solve, const SaddleVector& answer,
                        const RunControl& control, Solution& solution) {
   const LoadScale scale = load_scale(*system.problem);
   check({system, with_D(condensed, scale), scale, solve}, answer, control, solution);
 }
 
-void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& solve,
+void check_airy_answer_without_D(const AirySystem& system, const SaddleSolve& solve,
                                  const SaddleVector& answer, const RunControl& control,
                                  Solution& solution) {
   const LoadScale scale = load_scale(*system.problem);
@@ -147,7 +147,7 @@ void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& so
   check({system, check_law, scale, solve}, answer, control, solution);
 }
 
-void refine_airy_answer(const DualSystem& system, const contact::Problem& condensed,
+void refine_airy_answer(const AirySystem& system, const contact::Problem& condensed,
                         const SaddleSolve& solve, const SaddleVector& answer,
                         const RunControl& control, Solution& solution) {
   constexpr int most_steps = 20;

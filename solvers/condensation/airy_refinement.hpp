@@ -1,6 +1,6 @@
 // How wrong an answer in the Airy function is, as the method itself can tell; and how to mend it.
 //
-// With the contact forces held, everything else is linear (dual_system.hpp). Its residuals
+// With the contact forces held, everything else is linear (airy_system.hpp). Its residuals
 //
 //   r   = q − S x − C_Fᵀ λ − C_Cᵀ λ'    compatibility, mm
 //   r_F = F − C_F x                     forces on Γ_F, N
@@ -35,7 +35,7 @@
 
 #include <functional>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "solvers/base/solution.hpp"
 
 namespace airybench {
@@ -49,17 +49,17 @@ using SaddleSolve = std::function<void(SaddleVector&)>;
 
 // What belongs to the solution's F_C: sets its error estimate, and says `inaccurate` where it is ok
 // so far and the estimate is above the target.
-void check_airy_answer(const DualSystem& system, const contact::Problem& condensed,
+void check_airy_answer(const AirySystem& system, const contact::Problem& condensed,
                        const SaddleSolve& solve, const SaddleVector& answer,
                        const RunControl& control, Solution& solution);
 // For a method that has no D: with a rough diagonal (rough_compliance.hpp), the error of the
 // contact forces is taken to be ten times the natural map.
-void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& solve,
+void check_airy_answer_without_D(const AirySystem& system, const SaddleSolve& solve,
                                  const SaddleVector& answer, const RunControl& control,
                                  Solution& solution);
 
 // The same after refinement of F_C, φ and stresses.
-void refine_airy_answer(const DualSystem& system, const contact::Problem& condensed,
+void refine_airy_answer(const AirySystem& system, const contact::Problem& condensed,
                         const SaddleSolve& solve, const SaddleVector& answer,
                         const RunControl& control, Solution& solution);
 

@@ -19,7 +19,7 @@ using Column = Eigen::VectorX<Scalar>;
 
 // φ of some unknowns; the gauge is zero.
 template <typename Scalar, std::size_t count>
-Eigen::Matrix<Scalar, static_cast<int>(count), 1> gather(const DualSystem& system,
+Eigen::Matrix<Scalar, static_cast<int>(count), 1> gather(const AirySystem& system,
                                                          const Column<Scalar>& x,
                                                          const std::array<int, count>& dofs) {
   Eigen::Matrix<Scalar, static_cast<int>(count), 1> phi;
@@ -30,7 +30,7 @@ Eigen::Matrix<Scalar, static_cast<int>(count), 1> gather(const DualSystem& syste
 }
 
 template <std::size_t count, typename Values, typename Vector>
-void scatter(const DualSystem& system, const std::array<int, count>& dofs, const Values& values,
+void scatter(const AirySystem& system, const std::array<int, count>& dofs, const Values& values,
              Vector& r) {
   for (std::size_t k = 0; k < count; ++k)
     if (dofs[k] != DofNumbering::gauge)
@@ -55,7 +55,7 @@ struct TriangleStress {
 
 // Without the particular stress.
 template <typename Scalar>
-TriangleStress<Scalar> homogeneous_stress(const DualSystem& system, const Column<Scalar>& x,
+TriangleStress<Scalar> homogeneous_stress(const AirySystem& system, const Column<Scalar>& x,
                                           int t) {
   const Problem& problem = *system.problem;
   const TriangleVertices v = problem.vertices_of(t);
@@ -67,7 +67,7 @@ TriangleStress<Scalar> homogeneous_stress(const DualSystem& system, const Column
   return {of_dofs, of_dofs.stress(phi), dofs};
 }
 
-TriangleStress<Wide> triangle_stress(const DualSystem& system, const WideVector& x, int t) {
+TriangleStress<Wide> triangle_stress(const AirySystem& system, const WideVector& x, int t) {
   const Problem& problem = *system.problem;
   TriangleStress<Wide> result = homogeneous_stress<Wide>(system, x, t);
   if (problem.loads.has_body_force()) result.stress += particular_element_stress<Wide>(problem, t);
@@ -80,7 +80,7 @@ struct EdgeRows {
   std::array<int, 7> dofs;
 };
 
-EdgeRows edge_rows(const DualSystem& system, int row) {
+EdgeRows edge_rows(const AirySystem& system, int row) {
   const Problem& problem = *system.problem;
   const auto [a, b] = problem.mesh.boundary[row].vertices;
   const auto &xa = problem.mesh.vertices[a], &xb = problem.mesh.vertices[b];
@@ -89,12 +89,12 @@ EdgeRows edge_rows(const DualSystem& system, int row) {
 }
 
 // Adds what an edge's displacements ū, x and y at its two ends, do to r.
-void add_displacements(const DualSystem& system, const EdgeRows& edge, const WideColumn<4>& u,
+void add_displacements(const AirySystem& system, const EdgeRows& edge, const WideColumn<4>& u,
                        WideVector& r) {
   scatter(system, edge.dofs, WideColumn<7>(edge.forces.transpose() * u), r);
 }
 
-void add_prescribed_displacements(const DualSystem& system, WideVector& r) {
+void add_prescribed_displacements(const AirySystem& system, WideVector& r) {
   const Problem& problem = *system.problem;
   if (!problem.loads.displacement_mm) return;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
@@ -106,7 +106,7 @@ void add_prescribed_displacements(const DualSystem& system, WideVector& r) {
 
 // Γ_F, Γ_C and rollers in the order of the rows of C_F and C_C: their residuals, and their
 // multipliers in r.
-void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answer,
+void add_boundary_forces(const AirySystem& system, const LongSaddleVector& answer,
                          const Eigen::VectorXd& F_C, LongSaddleVector& residual) {
   int row_F = 0, row_C = 0;
   const auto visit = [&](int row) {
@@ -143,7 +143,7 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
 }
 
 // The terms |σ(φ_i)|:|C|:Σ|σ(φ_j) x_j| that S x sums, scaled as it is.
-Eigen::VectorXd residual_terms(const DualSystem& system, const Eigen::VectorXd& x) {
+Eigen::VectorXd residual_terms(const AirySystem& system, const Eigen::VectorXd& x) {
   const Problem& problem = *system.problem;
   Eigen::VectorXd terms = Eigen::VectorXd::Zero(system.n());
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
@@ -165,7 +165,7 @@ Eigen::VectorXd residual_terms(const DualSystem& system, const Eigen::VectorXd& 
 
 }  // namespace
 
-AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& answer,
+AiryResidual airy_residual(const AirySystem& system, const LongSaddleVector& answer,
                            const Eigen::VectorXd& F_C, int number) {
   const Problem& problem = *system.problem;
   LongSaddleVector residual{WideVector::Zero(system.n()), WideVector::Zero(system.n_f()),
@@ -184,7 +184,7 @@ AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& ans
   return {std::move(residual), std::sqrt(static_cast<double>(stress_squared))};
 }
 
-AiryProduct airy_product(const DualSystem& system, const Eigen::VectorXd& x) {
+AiryProduct airy_product(const AirySystem& system, const Eigen::VectorXd& x) {
   const Problem& problem = *system.problem;
   AiryProduct result{0, Eigen::VectorXd::Zero(system.n())};
   double squared = 0;
@@ -199,7 +199,7 @@ AiryProduct airy_product(const DualSystem& system, const Eigen::VectorXd& x) {
   return result;
 }
 
-StressField airy_stress(const DualSystem& system, const WideVector& x) {
+StressField airy_stress(const AirySystem& system, const WideVector& x) {
   StressField field(system.problem->mesh.triangles.size());
   for (int t = 0; t < static_cast<int>(field.size()); ++t)
     field[t] = triangle_stress(system, x, t).stress.cast<double>();

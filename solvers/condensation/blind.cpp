@@ -14,7 +14,7 @@ namespace {
 
 using Entries = std::vector<Eigen::Triplet<double>>;
 
-std::vector<int> positions(const DualSystem& system, BlindNumbering numbering) {
+std::vector<int> positions(const AirySystem& system, BlindNumbering numbering) {
   const int n = system.n(), n_f = system.n_f(), size = n + n_f + system.n_c();
   std::vector<int> order(static_cast<std::size_t>(size));  // which unknown stands where
   std::iota(order.begin(), order.end(), 0);
@@ -44,7 +44,7 @@ void add_rows(const SparseRows& C, int first, const std::vector<int>& position, 
     }
 }
 
-Eigen::VectorXd load(const DualSystem& system, const std::vector<int>& position) {
+Eigen::VectorXd load(const AirySystem& system, const std::vector<int>& position) {
   if (system.q.size() == 0 && system.F.size() == 0 && system.F0.size() == 0) return {};
   Eigen::VectorXd b = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(position.size()));
   const int n = system.n(), n_f = system.n_f();
@@ -55,7 +55,7 @@ Eigen::VectorXd load(const DualSystem& system, const std::vector<int>& position)
 }
 
 // Positions of λ'.
-std::vector<int> contact_positions(const DualSystem& system, const BlindSystem& blind) {
+std::vector<int> contact_positions(const AirySystem& system, const BlindSystem& blind) {
   return {blind.position.end() - system.n_c(), blind.position.end()};
 }
 
@@ -66,7 +66,7 @@ std::size_t BlindSystem::bytes() const {
          position.size() * sizeof(int);
 }
 
-BlindSystem make_blind_system(const DualSystem& system, BlindNumbering numbering) {
+BlindSystem make_blind_system(const AirySystem& system, BlindNumbering numbering) {
   const OwnerScope scope(MemoryOwner::system_matrix);
   BlindSystem blind;
   blind.position = positions(system, numbering);
@@ -85,7 +85,7 @@ BlindSystem make_blind_system(const DualSystem& system, BlindNumbering numbering
   return blind;
 }
 
-contact::Problem condense_blindly(const DualSystem& system, const BlindSystem& blind,
+contact::Problem condense_blindly(const AirySystem& system, const BlindSystem& blind,
                                   const BlindSolve& solve, int columns_at_once) {
   const int n_c = system.n_c();
   if (n_c == 0) return {};
@@ -130,7 +130,7 @@ contact::Problem condense_blindly(const ContactPoints& points, const Eigen::Matr
   return condensed;
 }
 
-Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSystem& blind,
+Eigen::VectorXd blind_right_hand_side(const AirySystem& system, const BlindSystem& blind,
                                       const Eigen::VectorXd& F_C) {
   Eigen::VectorXd b =
       blind.load.size() > 0
@@ -141,7 +141,7 @@ Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSyste
   return b;
 }
 
-SaddleVector by_blocks(const DualSystem& system, const BlindSystem& blind,
+SaddleVector by_blocks(const AirySystem& system, const BlindSystem& blind,
                        const Eigen::VectorXd& solution) {
   const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
   SaddleVector v{Eigen::VectorXd(n), Eigen::VectorXd(n_f), Eigen::VectorXd(n_c)};
@@ -151,7 +151,7 @@ SaddleVector by_blocks(const DualSystem& system, const BlindSystem& blind,
   return v;
 }
 
-Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const SaddleVector& v) {
+Eigen::VectorXd in_one(const AirySystem& system, const BlindSystem& blind, const SaddleVector& v) {
   Eigen::VectorXd all(system.n() + system.n_f() + system.n_c());
   const int* position = blind.position.data();
   for (const Eigen::VectorXd* part : {&v.x, &v.lambda_F, &v.lambda_C})
@@ -159,7 +159,7 @@ Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const
   return all;
 }
 
-void solve_blindly(const DualSystem& system, const RunControl& control, const BlindSystem& blind,
+void solve_blindly(const AirySystem& system, const RunControl& control, const BlindSystem& blind,
                    const BlindSolve& solve, int columns_at_once, Solution& solution,
                    const std::shared_ptr<const void>& owner) {
   if (control.condition) solution.condition_estimate = estimate_condition(blind.lower, solve);
@@ -174,7 +174,7 @@ void solve_blindly(const DualSystem& system, const RunControl& control, const Bl
         solve(x);
         return by_blocks(system, blind, x);
       },
-      [&blind, solve](const DualSystem& body, SaddleVector& v) {
+      [&blind, solve](const AirySystem& body, SaddleVector& v) {
         Eigen::VectorXd x = in_one(body, blind, v);
         solve(x);
         v = by_blocks(body, blind, x);

@@ -19,7 +19,7 @@
 #include <functional>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "solvers/condensation/finish.hpp"
 
 namespace airybench {
@@ -34,29 +34,29 @@ struct BlindSystem {
 // Positions of φ, λ, λ': in this order, or every multiplier right after the last of its unknowns,
 // which keep their order.
 enum class BlindNumbering { multipliers_last, multipliers_after_unknowns };
-BlindSystem make_blind_system(const DualSystem& system, BlindNumbering numbering);
+BlindSystem make_blind_system(const AirySystem& system, BlindNumbering numbering);
 
 // X ← M₁₁⁻¹ X for a block of right-hand sides.
 using BlindSolve = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
 
 // D and G, right-hand sides made a block of columns at a time. Throws Breakdown when D is not
 // positive definite to rounding.
-contact::Problem condense_blindly(const DualSystem& system, const BlindSystem& blind,
+contact::Problem condense_blindly(const AirySystem& system, const BlindSystem& blind,
                                   const BlindSolve& solve, int columns_at_once);
 // From the Schur complement −W of λ' and the reduced load: D = W⁻¹. Throws the same.
 contact::Problem condense_blindly(const ContactPoints& points, const Eigen::MatrixXd& schur,
                                   const Eigen::VectorXd& reduced_load);
 
 // The right-hand side that belongs to contact forces; vectors from and to φ, λ, λ'.
-Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSystem& blind,
+Eigen::VectorXd blind_right_hand_side(const AirySystem& system, const BlindSystem& blind,
                                       const Eigen::VectorXd& F_C);
-SaddleVector by_blocks(const DualSystem& system, const BlindSystem& blind,
+SaddleVector by_blocks(const AirySystem& system, const BlindSystem& blind,
                        const Eigen::VectorXd& solution);
-Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const SaddleVector& v);
+Eigen::VectorXd in_one(const AirySystem& system, const BlindSystem& blind, const SaddleVector& v);
 
 // All that follows the factorisation of M₁₁, by solves: condenses, and finishes. owner: of `blind`
 // and of what `solve` refers to.
-void solve_blindly(const DualSystem& system, const RunControl& control, const BlindSystem& blind,
+void solve_blindly(const AirySystem& system, const RunControl& control, const BlindSystem& blind,
                    const BlindSolve& solve, int columns_at_once, Solution& solution,
                    const std::shared_ptr<const void>& owner);
 

@@ -15,7 +15,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_system.hpp"
 #include "solvers/base/element_matrices.hpp"
 
 namespace airybench {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_system.hpp"
 #include "solvers/base/equal_rows.hpp"
 
 namespace airybench {

@@ -22,7 +22,7 @@ void finish(contact::Problem& condensed, const RunControl& control,
 }
 
 // Whatever the load case says of b, all of it.
-SaddleVector load_of(const DualSystem& system, const Eigen::VectorXd& F_C) {
+SaddleVector load_of(const AirySystem& system, const Eigen::VectorXd& F_C) {
   const auto or_zero = [](const Eigen::VectorXd& v, int size) {
     return v.size() > 0 ? v : Eigen::VectorXd(Eigen::VectorXd::Zero(size));
   };
@@ -40,7 +40,7 @@ struct KeptAiryBody {
   std::shared_ptr<const void> owner;  // of what `solve` refers to
 };
 
-Solution solve_load_case(KeptAiryBody& body, const DualSystem& system, const RunControl& control) {
+Solution solve_load_case(KeptAiryBody& body, const AirySystem& system, const RunControl& control) {
   const auto solved = [&](const Eigen::VectorXd& F_C) {
     SaddleVector v = load_of(system, F_C);
     body.solve(system, v);
@@ -59,13 +59,13 @@ Solution solve_load_case(KeptAiryBody& body, const DualSystem& system, const Run
 
 }  // namespace
 
-void store_airy_answer(const DualSystem& system, const Eigen::VectorXd& x, Solution& solution) {
+void store_airy_answer(const AirySystem& system, const Eigen::VectorXd& x, Solution& solution) {
   const OwnerScope scope(MemoryOwner::answer);
   solution.phi = airy_function(system, x);
   solution.stress = stress_of_airy_function(*system.problem, solution.phi);
 }
 
-void finish_in_airy_function(const DualSystem& system, const RunControl& control,
+void finish_in_airy_function(const AirySystem& system, const RunControl& control,
                              contact::Problem& condensed,
                              const std::function<SaddleVector(const Eigen::VectorXd& F_C)>& recover,
                              const BodySolve& solve, Refine refine, Solution& solution,
@@ -90,9 +90,10 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
   if (!control.keep_body || !owner) return;
   const auto body =
       std::make_shared<KeptAiryBody>(KeptAiryBody{condensed, solve, refine, std::move(owner)});
-  solution.solve_again = for_the_same_body(
-      system,
-      [body](const DualSystem& s, const RunControl& c) { return solve_load_case(*body, s, c); });
+  solution.solve_again =
+      for_the_same_body(system, on_airy_system([body](const AirySystem& s, const RunControl& c) {
+                          return solve_load_case(*body, s, c);
+                        }));
 }
 
 void finish_in_displacements(const Problem& problem, const RunControl& control,

@@ -27,7 +27,7 @@
 
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_system.hpp"
 #include "solvers/base/element_matrices.hpp"
 #include "solvers/base/solution.hpp"
 #include "solvers/condensation/edge_unknowns.hpp"

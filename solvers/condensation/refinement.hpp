@@ -6,6 +6,7 @@
 // end the error is that of the residual, about cond K · 1e-19 or less.
 #pragma once
 
+#include "assembly/wide_vector.hpp"
 #include "solvers/condensation/hybridized.hpp"
 
 namespace airybench {

@@ -20,12 +20,12 @@ struct StiffnessBody {
 // Sets solve_again if the control asks for it. finish(load case, control, body, solution): all that
 // follows D and G.
 template <typename System, typename Finish>
-void keep_if_told(const DualSystem& first, const RunControl& control,
+void keep_if_told(const ContactSystem& first, const RunControl& control,
                   std::shared_ptr<StiffnessBody<System>> body, Finish finish, Solution& solution) {
   if (!control.keep_body) return;
   solution.solve_again = for_the_same_body(
       first,
-      [body = std::move(body), finish](const DualSystem& load_case, const RunControl& again) {
+      [body = std::move(body), finish](const ContactSystem& load_case, const RunControl& again) {
         Solution other;
         run_stage(other.times, Stage::contact, MemoryOwner::system_matrix, [&] {
           set_load_case(*load_case.problem, body->system);

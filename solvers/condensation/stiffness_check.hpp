@@ -15,7 +15,7 @@
 // or relative to the loads where there is no stress (load_scale.hpp).
 #pragma once
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_system.hpp"
 #include "solvers/base/solution.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
 

@@ -27,7 +27,7 @@ void multiply_transposed(const SparseRows& C, const double* x, double* y) {
 }
 
 // C S*⁻¹ Cᵀ, dense, column by column.
-Eigen::MatrixXd dense_schur(const DualSystem& system, const Preconditioner& S_star, int lanes,
+Eigen::MatrixXd dense_schur(const AirySystem& system, const Preconditioner& S_star, int lanes,
                             int threads, const Deadline& deadline) {
   const int n = system.n(), m = system.n_f() + system.n_c();
   Eigen::MatrixXd K(m, m);
@@ -65,7 +65,7 @@ struct SchurFactor {
   }
 };
 
-SchurFactor factor_schur(const DualSystem& system, const Preconditioner& S_star, SchurBlock schur,
+SchurFactor factor_schur(const AirySystem& system, const Preconditioner& S_star, SchurBlock schur,
                          int lanes, int threads, const Deadline& deadline) {
   SchurFactor factor;
   if (schur == SchurBlock::dense) {
@@ -94,7 +94,7 @@ SchurFactor factor_schur(const DualSystem& system, const Preconditioner& S_star,
 
 }  // namespace
 
-SymmetricOperator saddle_operator(const DualSystem& system) {
+SymmetricOperator saddle_operator(const AirySystem& system) {
   const Eigen::Index n = system.n();
   return {n + system.n_f() + system.n_c(), [&system, n](const LaneBlock& X, LaneBlock& Y) {
             Y.setZero();
@@ -109,7 +109,7 @@ SymmetricOperator saddle_operator(const DualSystem& system) {
           }};
 }
 
-Preconditioner saddle_preconditioner(const DualSystem& system, const Preconditioner& S_star,
+Preconditioner saddle_preconditioner(const AirySystem& system, const Preconditioner& S_star,
                                      SchurBlock schur, int lanes, int threads,
                                      const Deadline& deadline) {
   const auto factor = std::make_shared<const SchurFactor>(

@@ -18,9 +18,9 @@ namespace airybench {
 
 enum class SchurBlock { dense, sparse };
 
-SymmetricOperator saddle_operator(const DualSystem& system);
+SymmetricOperator saddle_operator(const AirySystem& system);
 // S_star: preconditioner of S. Throws Breakdown when the Schur block is not positive definite.
-Preconditioner saddle_preconditioner(const DualSystem& system, const Preconditioner& S_star,
+Preconditioner saddle_preconditioner(const AirySystem& system, const Preconditioner& S_star,
                                      SchurBlock schur, int lanes, int threads,
                                      const Deadline& deadline = {});
 

@@ -8,7 +8,7 @@
 
 namespace airybench {
 
-SparseRows::InnerIterator constraint_row(const DualSystem& system, int k) {
+SparseRows::InnerIterator constraint_row(const AirySystem& system, int k) {
   return k < system.n_f() ? SparseRows::InnerIterator(system.C_F, k)
                           : SparseRows::InnerIterator(system.C_C, k - system.n_f());
 }
@@ -17,7 +17,7 @@ namespace {
 
 // Rows of [C_F; C_C] in the order of their first unknown, so that neighbouring right-hand sides
 // share their leading zeros.
-std::vector<int> rows_by_first_unknown(const DualSystem& system) {
+std::vector<int> rows_by_first_unknown(const AirySystem& system) {
   std::vector<int> rows(static_cast<std::size_t>(system.n_f() + system.n_c()));
   std::iota(rows.begin(), rows.end(), 0);
   std::vector<int> first(rows.size());
@@ -30,7 +30,7 @@ std::vector<int> rows_by_first_unknown(const DualSystem& system) {
 }
 
 // Step 1: X where it is kept, and K in the order of [C_F; C_C].
-Eigen::MatrixXd solve_for_multipliers(const DualSystem& system, const SolveInPlace& solve,
+Eigen::MatrixXd solve_for_multipliers(const AirySystem& system, const SolveInPlace& solve,
                                       const KeepX& keep, ThreeStep& steps) {
   const int n_f = system.n_f(), n_c = system.n_c(), columns = n_f + n_c;
   const bool kept = keep.where != KeepX::Where::nowhere;
@@ -70,7 +70,7 @@ std::size_t ThreeStep::bytes() const {
              sizeof(double);
 }
 
-ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
+ThreeStep condense_in_three_steps(const AirySystem& system, const SolveInPlace& solve,
                                   const KeepX& keep) {
   const OwnerScope scope(MemoryOwner::intermediate);
   const int n_f = system.n_f(), n_c = system.n_c();
@@ -120,7 +120,7 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
 namespace {
 
 // x −= S⁻¹ Cᵀ λ, where x = S⁻¹ load.
-void subtract_multipliers(const ThreeStep& steps, const DualSystem& system,
+void subtract_multipliers(const ThreeStep& steps, const AirySystem& system,
                           const SolveInPlace& solve, SaddleVector& v) {
   const int n_f = system.n_f();
   if (steps.X.bytes() > 0) {
@@ -140,7 +140,7 @@ void subtract_multipliers(const ThreeStep& steps, const DualSystem& system,
 
 }  // namespace
 
-SaddleVector recover_airy_unknowns(const ThreeStep& steps, const DualSystem& system,
+SaddleVector recover_airy_unknowns(const ThreeStep& steps, const AirySystem& system,
                                    const Eigen::VectorXd& F_C, const SolveInPlace& solve) {
   const int n_f = system.n_f(), n_c = system.n_c();
   SaddleVector v{Eigen::VectorXd::Zero(system.n()), Eigen::VectorXd::Zero(n_f),
@@ -153,7 +153,7 @@ SaddleVector recover_airy_unknowns(const ThreeStep& steps, const DualSystem& sys
   return v;
 }
 
-void solve_saddle(const ThreeStep& steps, const DualSystem& system, const SolveInPlace& solve,
+void solve_saddle(const ThreeStep& steps, const AirySystem& system, const SolveInPlace& solve,
                   SaddleVector& v) {
   solve(v.x);
   // K (λ, λ') = C S⁻¹ r − (r_F, r_C)
@@ -170,7 +170,7 @@ void solve_saddle(const ThreeStep& steps, const DualSystem& system, const SolveI
   subtract_multipliers(steps, system, solve, v);
 }
 
-void solve_in_three_steps(const DualSystem& system, const RunControl& control,
+void solve_in_three_steps(const AirySystem& system, const RunControl& control,
                           const SolveInPlace& solve_S, const KeepX& keep, Refine refine,
                           Solution& solution, const std::shared_ptr<const void>& owner) {
   struct Condensed {
@@ -191,7 +191,7 @@ void solve_in_three_steps(const DualSystem& system, const RunControl& control,
       [&](const Eigen::VectorXd& F_C) {
         return recover_airy_unknowns(steps, system, F_C, solve_S);
       },
-      [own = kept.get()](const DualSystem& body, SaddleVector& v) {
+      [own = kept.get()](const AirySystem& body, SaddleVector& v) {
         solve_saddle(own->steps, body, own->solve_S, v);
       },
       refine, solution, owner ? kept : nullptr);

@@ -14,7 +14,7 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "solvers/condensation/column_store.hpp"
 #include "solvers/condensation/finish.hpp"
 
@@ -42,26 +42,26 @@ struct ThreeStep {
 };
 
 // Throws Breakdown when K_FF or W is not positive definite to rounding.
-ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
+ThreeStep condense_in_three_steps(const AirySystem& system, const SolveInPlace& solve,
                                   const KeepX& keep = {});
 
 // All that follows a factorisation of S, or its preconditioner: condenses, and finishes. owner: of
 // what solve_S refers to, if the body can be kept for other load cases.
-void solve_in_three_steps(const DualSystem& system, const RunControl& control,
+void solve_in_three_steps(const AirySystem& system, const RunControl& control,
                           const SolveInPlace& solve_S, const KeepX& keep, Refine refine,
                           Solution& solution, const std::shared_ptr<const void>& owner = nullptr);
 
-// The scaled Airy unknowns and multipliers that belong to contact forces F_C (see DualSystem).
+// The scaled Airy unknowns and multipliers that belong to contact forces F_C (see AirySystem).
 // `solve` is called once if X was kept nowhere.
-SaddleVector recover_airy_unknowns(const ThreeStep& three_step, const DualSystem& system,
+SaddleVector recover_airy_unknowns(const ThreeStep& three_step, const AirySystem& system,
                                    const Eigen::VectorXd& F_C, const SolveInPlace& solve);
 
 // Solves [S Cᵀ; C 0] for any right-hand side, in place: the three steps again. `solve` is called
 // once, or twice if X was kept nowhere.
-void solve_saddle(const ThreeStep& three_step, const DualSystem& system, const SolveInPlace& solve,
+void solve_saddle(const ThreeStep& three_step, const AirySystem& system, const SolveInPlace& solve,
                   SaddleVector& v);
 
 // Row k of [C_F; C_C].
-SparseRows::InnerIterator constraint_row(const DualSystem& system, int k);
+SparseRows::InnerIterator constraint_row(const AirySystem& system, int k);
 
 }  // namespace airybench

@@ -11,7 +11,6 @@
 #include <mutex>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
 #include "solvers/base/lanes.hpp"
 #include "solvers/base/parallel.hpp"
 #include "solvers/base/solution.hpp"

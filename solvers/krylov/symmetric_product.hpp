@@ -1,7 +1,7 @@
 // Y = S X on lanes of right-hand sides, S symmetric and given by its lower triangle.
 #pragma once
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "solvers/base/lanes.hpp"
 
 namespace airybench {

@@ -98,7 +98,7 @@ Problem with_half_steps(const Problem& first) {
   return halved;
 }
 
-Eigen::MatrixXd slid_after(const DualSystem& system, const Solution& answer) {
+Eigen::MatrixXd slid_after(const ContactSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
   if (!problem.has_friction() || system.contact.count == 0) return {};
   const bool in_displacements = answer.displacement.cols() > 0;
@@ -118,7 +118,7 @@ Eigen::MatrixXd slid_after(const DualSystem& system, const Solution& answer) {
   return slid;
 }
 
-double dissipation_Nmm(const DualSystem& system, const Solution& answer) {
+double dissipation_Nmm(const ContactSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
   if (!problem.has_friction() || answer.contact_displacement.size() == 0) return 0;
   const ContactPoints law = answer.displacement.cols() > 0
@@ -130,15 +130,15 @@ double dissipation_Nmm(const DualSystem& system, const Solution& answer) {
   return work;
 }
 
-Solution solve_load_case(const Solve& solve, DualSystem& system, const RunControl& control) {
+Solution solve_load_case(const Solve& solve, ContactSystem& system, const RunControl& control) {
   Solution answer = run(solve, system, control);
   if (answer.free_motion_mm.size() > 0)
-    set_load_case(system, std::make_shared<const Problem>(
-                              with_free_motion(*system.problem, answer.free_motion_mm)));
+    system.set_load_case(
+        std::make_shared<const Problem>(with_free_motion(*system.problem, answer.free_motion_mm)));
   return answer;
 }
 
-Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunControl& control,
+Solution solve_load_steps(const Solve& solve, ContactSystem& system, const RunControl& control,
                           const VisitStep& visit) {
   const std::shared_ptr<const Problem> first = system.problem;
   RunControl keeping = control;
@@ -150,7 +150,7 @@ Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunContr
   for (std::size_t k = 0; k < first->later_steps.size() && has_answer(answer.status); ++k) {
     Loads loads = first->later_steps[k];
     loads.slid_mm = slid_after(system, answer);
-    set_load_case(system, std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
+    system.set_load_case(std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
     RunControl from_here = control;
     if (answer.F_C.allFinite()) from_here.contact.start = std::move(answer.F_C);
     answer = solve_load_case(again, system, from_here);
@@ -161,8 +161,8 @@ Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunContr
 
 Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,
                           const RunControl& control, const VisitStep& visit) {
-  DualSystem system = assemble(first, method.blocks, method.degree);
-  return solve_load_steps(method.solve, system, control, visit);
+  const std::unique_ptr<ContactSystem> system = assemble(method, first);
+  return solve_load_steps(method.solve, *system, control, visit);
 }
 
 }  // namespace airybench

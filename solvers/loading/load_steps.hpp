@@ -20,25 +20,26 @@ namespace airybench {
 
 // s of the next step, as in Loads: on every edge the polynomial of the stresses' degree that has
 // the moments of u_t, of P2 u_t itself. Empty without friction.
-Eigen::MatrixXd slid_after(const DualSystem& system, const Solution& answer);
+Eigen::MatrixXd slid_after(const ContactSystem& system, const Solution& answer);
 
 // The work of friction in a step, −Σ F_t Δr_t ≥ 0, N mm; zero without friction.
-double dissipation_Nmm(const DualSystem& system, const Solution& answer);
+double dissipation_Nmm(const ContactSystem& system, const Solution& answer);
 
 // The same path with every step in two halves: in the middle loads and gap are the mean of what
 // they are before and after. Before the first the body has no load, and the gap that it has there.
 Problem with_half_steps(const Problem& first);
 
 // step: from 0. The system is that of the step, its slip measured from this path's own past.
-using VisitStep = std::function<void(int step, const DualSystem& system, const Solution& answer)>;
+using VisitStep =
+    std::function<void(int step, const ContactSystem& system, const Solution& answer)>;
 
 // A problem without its later steps. Where a free motion was found, the system's problem knows it
 // then (free_motions.hpp).
-Solution solve_load_case(const Solve& solve, DualSystem& system, const RunControl& control);
+Solution solve_load_case(const Solve& solve, ContactSystem& system, const RunControl& control);
 
 // Solves a problem and its later steps, and calls visit() after each. Stops at the first step that
 // has no answer. Returns the last answer; the system then has its load case.
-Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunControl& control,
+Solution solve_load_steps(const Solve& solve, ContactSystem& system, const RunControl& control,
                           const VisitStep& visit = {});
 Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,
                           const RunControl& control, const VisitStep& visit = {});

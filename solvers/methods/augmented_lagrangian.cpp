@@ -29,7 +29,7 @@ std::string name_of(UzawaOutcome outcome) {
   }
 }
 
-Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& control, double r,
+Solution solve_augmented_lagrangian(const AirySystem& system, const RunControl& control, double r,
                                     double rho) {
   Solution solution;
   const AugmentedFactor augmented =
@@ -53,7 +53,7 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
 // side; a combination is given up at as many iterations as the best so far needed. When time is up,
 // what was found until then counts. Throws Breakdown when none converges, TimeoutReached when none
 // has until then.
-Tuning tune_augmented_lagrangian(const DualSystem& system, const RunControl& control) {
+Tuning tune_augmented_lagrangian(const AirySystem& system, const RunControl& control) {
   constexpr std::array<double, 8> grid = {1, 20, 40, 60, 80, 100, 200, 300};
   // From the ones that are often best, so that the others can be given up early.
   constexpr std::array<double, 8> order = {20, 40, 60, 80, 100, 1, 200, 300};
@@ -88,9 +88,10 @@ Tuning tune_augmented_lagrangian(const DualSystem& system, const RunControl& con
     throw Breakdown("no combination of the grid of r and rho converges within " +
                     std::to_string(options.most_iterations) + " iterations");
   tuning.parameters = describe(best->r, best->rho);
-  tuning.solve = [r = best->r, rho = best->rho](const DualSystem& s, const RunControl& c) {
-    return solve_augmented_lagrangian(s, c, r, rho);
-  };
+  tuning.solve =
+      on_airy_system([r = best->r, rho = best->rho](const AirySystem& s, const RunControl& c) {
+        return solve_augmented_lagrangian(s, c, r, rho);
+      });
   return tuning;
 }
 
@@ -112,9 +113,9 @@ Method alm(GeneralName name) {
   name.refuse_rest("r, rho");
   Method method = alm_method(name.name(), "given parameters");
   method.knob = AccuracyKnob::uzawa_iterations;
-  method.solve = [r, rho](const DualSystem& system, const RunControl& control) {
+  method.solve = on_airy_system([r, rho](const AirySystem& system, const RunControl& control) {
     return solve_augmented_lagrangian(system, control, r, rho);
-  };
+  });
   return method;
 }
 
@@ -122,10 +123,10 @@ Method tuned_alm() {
   Method method = alm_method("ALM", "the best of the paper's grid");
   method.in_paper = true;
   method.knob = AccuracyKnob::stop;
-  method.tune = tune_augmented_lagrangian;
-  method.solve = [](const DualSystem& system, const RunControl& control) {
+  method.tune = on_airy_system(tune_augmented_lagrangian);
+  method.solve = on_airy_system([](const AirySystem& system, const RunControl& control) {
     return tune_augmented_lagrangian(system, control).solve(system, control);
-  };
+  });
   return method;
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double first_tolerance = 2e-4;
 
 // With the factor that is there.
-Solution iterate_automatically(const DualSystem& system, const RunControl& control,
+Solution iterate_automatically(const AirySystem& system, const RunControl& control,
                                PenalisedFactor& penalised, Solution solution) {
   constexpr double check_tolerance = 1e-2;
   solution.storage[MemoryOwner::iteration] = accelerated_bytes(system);
@@ -28,7 +28,7 @@ Solution iterate_automatically(const DualSystem& system, const RunControl& contr
   return solution;
 }
 
-Solution solve_automatic_lagrangian(const DualSystem& system, const RunControl& control) {
+Solution solve_automatic_lagrangian(const AirySystem& system, const RunControl& control) {
   const auto penalised = std::make_shared<PenalisedFactor>();
   Solution solution;
   SparseColumns lower = run_stage(solution.times, Stage::factor, MemoryOwner::factor, [&] {
@@ -47,9 +47,9 @@ Solution solve_automatic_lagrangian(const DualSystem& system, const RunControl& 
   count_factor(penalised->factor, solution);
   if (control.keep_body)
     solution.solve_again = for_the_same_body(
-        system, [penalised](const DualSystem& load_case, const RunControl& again) {
+        system, on_airy_system([penalised](const AirySystem& load_case, const RunControl& again) {
           return iterate_automatically(load_case, again, *penalised, {});
-        });
+        }));
   return solution;
 }
 
@@ -60,7 +60,7 @@ Method automatic_alm() {
           .family = "ALM",
           .summary = "augmented Lagrangian, accelerated, no parameters to choose",
           .stages = {Stage::order, Stage::factor, Stage::contact, Stage::recover, Stage::check},
-          .solve = solve_automatic_lagrangian,
+          .solve = on_airy_system(solve_automatic_lagrangian),
           .first_tolerance = first_tolerance,
           .knob = AccuracyKnob::uzawa_iterations};
 }

@@ -21,7 +21,7 @@ struct BlindBody {
 using MumpsBody = BlindBody<MumpsFactor>;
 
 // The last `trailing` unknowns are left to the Schur complement.
-std::shared_ptr<MumpsBody> factorise(const DualSystem& system, const RunControl& control,
+std::shared_ptr<MumpsBody> factorise(const AirySystem& system, const RunControl& control,
                                      int trailing, Solution& solution) {
   auto body = std::make_shared<MumpsBody>();
   body->blind = run_stage(solution.times, Stage::order, MemoryOwner::system_matrix, [&] {
@@ -40,7 +40,7 @@ std::shared_ptr<MumpsBody> factorise(const DualSystem& system, const RunControl&
   return body;
 }
 
-Solution solve_blind_mumps(const DualSystem& system, const RunControl& control) {
+Solution solve_blind_mumps(const AirySystem& system, const RunControl& control) {
   Solution solution;
   const std::shared_ptr<MumpsBody> body = factorise(system, control, 0, solution);
   solve_blindly(
@@ -52,7 +52,7 @@ Solution solve_blind_mumps(const DualSystem& system, const RunControl& control) 
   return solution;
 }
 
-Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& control,
+Solution solve_blind_mumps_schur(const AirySystem& system, const RunControl& control,
                                  Refine refine) {
   const int n_c = system.n_c();
   Solution solution;
@@ -75,7 +75,7 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
           factor.solve_in_place(x, control.deadline);
         return by_blocks(system, blind, x);
       },
-      [&blind, &factor, &condensed, deadline = control.deadline](const DualSystem& of,
+      [&blind, &factor, &condensed, deadline = control.deadline](const AirySystem& of,
                                                                  SaddleVector& v) {
         Eigen::VectorXd x = in_one(of, blind, v);
         if (of.n_c() > 0)
@@ -88,7 +88,7 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
   return solution;
 }
 
-Solution solve_blind_skyline(const DualSystem& system, const RunControl& control) {
+Solution solve_blind_skyline(const AirySystem& system, const RunControl& control) {
   Solution solution;
   const auto body = std::make_shared<BlindBody<SkylineFactor>>();
   body->blind = run_stage(solution.times, Stage::order, MemoryOwner::system_matrix, [&] {
@@ -106,16 +106,16 @@ Solution solve_blind_skyline(const DualSystem& system, const RunControl& control
   return solution;
 }
 
-Method blind_method(const char* name, const char* summary, Solve solve) {
+Method blind_method(const char* name, const char* summary, SolveAiry solve) {
   return {.name = name,
           .family = "BLIND",
           .summary = summary,
           .condenses_contact_only = true,
-          .solve = std::move(solve)};
+          .solve = on_airy_system(std::move(solve))};
 }
 
 Method blind_schur_method(const char* name, const char* summary, Refine refine) {
-  return blind_method(name, summary, [refine](const DualSystem& system, const RunControl& control) {
+  return blind_method(name, summary, [refine](const AirySystem& system, const RunControl& control) {
     return solve_blind_mumps_schur(system, control, refine);
   });
 }

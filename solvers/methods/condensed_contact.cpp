@@ -9,7 +9,7 @@ Method condensed_contact() {
   return {.name = "CONDENSED",
           .family = "CONDENSED",
           .summary = "the contact law of a problem that came condensed",
-          .blocks = Blocks::contact_points,
+          .unknowns = Unknowns::contact_forces,
           .stages = {Stage::contact},
           .solve_contact =
               [](const contact::Problem& problem, const RunControl& control) {

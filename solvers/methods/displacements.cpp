@@ -11,9 +11,9 @@ namespace {
 
 using DisplacementBody = StiffnessBody<DisplacementSystem>;
 
-void finish_displacements(const DualSystem& airy, const RunControl& control, DisplacementBody& body,
-                          Solution& solution) {
-  const Problem& problem = *airy.problem;
+void finish_displacements(const ContactSystem& given, const RunControl& control,
+                          DisplacementBody& body, Solution& solution) {
+  const Problem& problem = *given.problem;
   body.condensed.points = body.system.control.law;  // the load case's
   finish_in_displacements(
       problem, control, body.condensed, *body.factor,
@@ -29,18 +29,19 @@ void finish_displacements(const DualSystem& airy, const RunControl& control, Dis
       solution);
 }
 
-Solution solve_displacements(const DualSystem& airy, const RunControl& control) {
+Solution solve_displacements(const ContactSystem& given, const RunControl& control) {
   const auto body = std::make_shared<DisplacementBody>();
   DisplacementSystem& system = body->system;
   Solution solution;
-  system = run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix,
-                     [&] { return assemble_displacement_system(*airy.problem, airy.degree + 1); });
+  system = run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix, [&] {
+    return assemble_displacement_system(*given.problem, given.degree + 1);
+  });
   solution.storage[MemoryOwner::system_matrix] = system.bytes();
   body->factor = std::make_unique<MultifrontalStiffness>(system.K, system.n_c());
   body->condensed = factorise_and_condense(*body->factor, system.b, system.control.law,
                                            "displacement system", control.deadline, solution);
-  finish_displacements(airy, control, *body, solution);
-  keep_if_told(airy, control, body, finish_displacements, solution);
+  finish_displacements(given, control, *body, solution);
+  keep_if_told(given, control, body, finish_displacements, solution);
   return solution;
 }
 
@@ -50,9 +51,8 @@ Method displacement_method(int degree, const char* summary) {
   return {.name = name,
           .family = name,
           .summary = summary,
-          .blocks = Blocks::contact_points,
+          .unknowns = Unknowns::displacements,
           .degree = degree - 1,
-          .in_displacements = true,
           .solve = solve_displacements};
 }
 

@@ -17,11 +17,11 @@ namespace {
 
 using HybridizedBody = StiffnessBody<HybridizedSystem>;
 
-void finish_hybridized(const DualSystem& airy, const RunControl& control, HybridizedBody& body,
+void finish_hybridized(const ContactSystem& given, const RunControl& control, HybridizedBody& body,
                        Solution& solution) {
-  const Problem& problem = *airy.problem;
+  const Problem& problem = *given.problem;
   HybridizedAnswer answer;
-  body.condensed.points = airy.contact;  // the load case's
+  body.condensed.points = given.contact;  // the load case's
   finish_in_displacements(
       problem, control, body.condensed, *body.factor,
       [&](const Eigen::VectorXd& u) {
@@ -44,25 +44,25 @@ std::unique_ptr<StiffnessFactor> make_factor(const HybridizedSystem& system) {
   return std::make_unique<Factor>(system.K, system.n_c);
 }
 
-Solution solve_hybridized(const DualSystem& airy, const RunControl& control, MakeFactor make) {
+Solution solve_hybridized(const ContactSystem& given, const RunControl& control, MakeFactor make) {
   const auto body = std::make_shared<HybridizedBody>();
   HybridizedSystem& system = body->system;
   Solution solution;
   run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix, [&] {
-    system = assemble_hybridized(*airy.problem, airy.contact);
+    system = assemble_hybridized(*given.problem, given.contact);
     body->factor = make(system);
     const bool has_its_own = body->factor->matrix_bytes() > 0;
     if (has_its_own && !control.keep_body && !control.condition) system.K = {};
   });
   solution.storage[MemoryOwner::system_matrix] = system.bytes() + body->factor->matrix_bytes();
-  body->condensed = factorise_and_condense(*body->factor, system.b, airy.contact,
+  body->condensed = factorise_and_condense(*body->factor, system.b, given.contact,
                                            "hybridized system", control.deadline, solution);
   if (control.condition)
     solution.condition_estimate = estimate_condition(
         lower_triangle(system.K),
         [&](Eigen::Ref<Eigen::MatrixXd> X) { body->factor->solve_in_place(X, control.deadline); });
-  finish_hybridized(airy, control, *body, solution);
-  keep_if_told(airy, control, body, finish_hybridized, solution);
+  finish_hybridized(given, control, *body, solution);
+  keep_if_told(given, control, body, finish_hybridized, solution);
   return solution;
 }
 
@@ -83,11 +83,11 @@ Method hybrid_method(const Factors& of, int degree = 1) {
   Method method = {.name = "HYBRID" + (first.empty() ? "" : ":" + first),
                    .family = "HYBRID",
                    .summary = of.summary,
-                   .blocks = Blocks::contact_points,
+                   .unknowns = Unknowns::edge_moments,
                    .degree = degree,
                    .solve =
-                       [make = of.make](const DualSystem& airy, const RunControl& control) {
-                         return solve_hybridized(airy, control, make);
+                       [make = of.make](const ContactSystem& given, const RunControl& control) {
+                         return solve_hybridized(given, control, make);
                        },
                    .knob = AccuracyKnob::contact_sweeps};
   if (degree > 1) {

@@ -57,17 +57,17 @@ Eigen::VectorXd compliance_from_below(const Problem& problem, const ElementMatri
 }
 
 // K is factorised nowhere: what is left of it is `matrix`, unless other loads come.
-void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBody& body,
+void make_two_levels(const ContactSystem& given, const RunControl& control, KrylovBody& body,
                      Solution& solution) {
-  const Problem& problem = *airy.problem;
+  const Problem& problem = *given.problem;
   std::unique_ptr<CoarseDisplacements> coarse;
   ElementMatrices coarse_matrix;
   run_stage(solution.times, Stage::precondition, MemoryOwner::system_matrix, [&] {
-    body.system = assemble_hybridized(problem, airy.contact);
+    body.system = assemble_hybridized(problem, given.contact);
     body.matrix = make_edge_matrix(problem, body.system, control.threads);
-    body.compliance = compliance_from_below(problem, body.system.K, airy.contact);
+    body.compliance = compliance_from_below(problem, body.system.K, given.contact);
     const OwnerScope scope(MemoryOwner::preconditioner);
-    coarse = std::make_unique<CoarseDisplacements>(problem, airy.contact, body.matrix,
+    coarse = std::make_unique<CoarseDisplacements>(problem, given.contact, body.matrix,
                                                    coarse_kind_for(problem));
     coarse_matrix = coarse->galerkin(problem, body.matrix, body.system);
     if (!control.keep_body) body.system.K = {};
@@ -105,16 +105,16 @@ void check_answer(const Problem& problem, const KrylovBody& body,
 }
 
 // What comes after the two levels.
-void finish_iteratively(const DualSystem& airy, const RunControl& control, KrylovBody& body,
+void finish_iteratively(const ContactSystem& given, const RunControl& control, KrylovBody& body,
                         Solution& solution) {
-  const Problem& problem = *airy.problem;
-  const bool has_contact = airy.contact.count > 0;
+  const Problem& problem = *given.problem;
+  const bool has_contact = given.contact.count > 0;
   TwoLevelPreconditioner& M = *body.two_levels;
   note_parameters(M.coarse(), solution);
   M.times() = {};
   const Stage stage = has_contact ? Stage::contact : Stage::recover;
   SlotRows slots = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
-    return SlotRows(problem, airy.contact, body.system, body.matrix, M, control.deadline);
+    return SlotRows(problem, given.contact, body.system, body.matrix, M, control.deadline);
   });
   RowsResult rows = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
     return solve_contact_on_rows(slots, load_scale(problem).energy_norm,
@@ -129,7 +129,7 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
   slots.drop_space();
   HybridizedAnswer answer;
   run_stage(solution.times, Stage::recover, MemoryOwner::answer, [&] {
-    solution.F_C = project_on_coulomb(airy.contact, rows.F_C);
+    solution.F_C = project_on_coulomb(given.contact, rows.F_C);
     const Eigen::VectorXd u =
         from_slots(body.matrix, body.system.unknown, rows.u, body.system.b.size());
     rows.u.resize(0);
@@ -147,17 +147,17 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
   solution.iteration_times = M.times();
 }
 
-Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) {
-  refuse_free_bodies(airy.contact);
-  if (!airy.contact.opposite.empty())
+Solution solve_hybridized_cg(const ContactSystem& given, const RunControl& control) {
+  refuse_free_bodies(given.contact);
+  if (!given.contact.opposite.empty())
     throw Breakdown("bodies in contact with each other: HYBRID:CG knows walls only");
   const auto body = std::make_shared<KrylovBody>();
   Solution solution;
-  make_two_levels(airy, control, *body, solution);
-  finish_iteratively(airy, control, *body, solution);
+  make_two_levels(given, control, *body, solution);
+  finish_iteratively(given, control, *body, solution);
   if (control.keep_body)
     solution.solve_again =
-        for_the_same_body(airy, [body](const DualSystem& load_case, const RunControl& again) {
+        for_the_same_body(given, [body](const ContactSystem& load_case, const RunControl& again) {
           Solution other;
           run_stage(other.times, Stage::contact, MemoryOwner::system_matrix,
                     [&] { set_load_case(*load_case.problem, body->system); });
@@ -173,7 +173,7 @@ Method hybrid_cg() {
   return {.name = "HYBRID:CG",
           .family = "HYBRID:CG",
           .summary = "hybridized equilibrium elements, two-level Krylov iteration, active sets",
-          .blocks = Blocks::contact_points,
+          .unknowns = Unknowns::edge_moments,
           .joins_bodies = false,
           .stages = {Stage::precondition, Stage::order, Stage::factor, Stage::contact,
                      Stage::recover, Stage::check},

@@ -8,7 +8,7 @@
 namespace airybench {
 namespace {
 
-Solution solve_symmlq(const DualSystem& system, const RunControl& control,
+Solution solve_symmlq(const AirySystem& system, const RunControl& control,
                       const MakePreconditioner& make, SchurBlock schur, int lanes, Refine refine) {
   const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
   Solution solution;
@@ -76,7 +76,7 @@ Solution solve_symmlq(const DualSystem& system, const RunControl& control,
           if (n_c > 0) b.tail(n_c) += F_C;
         });
       },
-      [&](const DualSystem&, SaddleVector& v) {
+      [&](const AirySystem&, SaddleVector& v) {
         v = solve_one([&](LaneColumn b) {
           b.head(n) = v.x;
           b.segment(n, n_f) = v.lambda_F;
@@ -99,9 +99,9 @@ Method symmlq(GeneralName name) {
   name.refuse_rest("schur, lanes, refine");
   Method method = krylov_method(name, "SYMMLQ condensation, block preconditioner with ");
   method.condenses_contact_only = true;
-  method.solve = [=](const DualSystem& system, const RunControl& control) {
+  method.solve = on_airy_system([=](const AirySystem& system, const RunControl& control) {
     return solve_symmlq(system, control, make, schur, lanes, refine);
-  };
+  });
   return method;
 }
 

@@ -11,7 +11,7 @@
 namespace airybench {
 namespace {
 
-Solution solve_with_skyline(const DualSystem& system, const RunControl& control, KeepX::Where where,
+Solution solve_with_skyline(const AirySystem& system, const RunControl& control, KeepX::Where where,
                             Refine refine) {
   Solution solution;
   const auto factor =
@@ -26,7 +26,7 @@ Solution solve_with_skyline(const DualSystem& system, const RunControl& control,
   return solution;
 }
 
-Solution solve_with_cholmod(const DualSystem& system, const RunControl& control) {
+Solution solve_with_cholmod(const AirySystem& system, const RunControl& control) {
   Solution solution;
   const auto factor = std::make_shared<CholmodFactor>();
   run_stage(solution.times, Stage::order, MemoryOwner::factor, [&] { factor->analyse(system.S); });
@@ -43,9 +43,9 @@ Method with_skyline(const char* name, const char* summary, KeepX::Where where, R
   return {.name = name,
           .family = "3STEPD",
           .summary = summary,
-          .solve = [=](const DualSystem& system, const RunControl& control) {
+          .solve = on_airy_system([=](const AirySystem& system, const RunControl& control) {
             return solve_with_skyline(system, control, where, refine);
-          }};
+          })};
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ Method three_step_cholmod() {
   return {.name = "3STEPD:CHOLMOD",
           .family = "3STEPD",
           .summary = "three-step condensation, CHOLMOD supernodal Cholesky",
-          .solve = solve_with_cholmod};
+          .solve = on_airy_system(solve_with_cholmod)};
 }
 
 }  // namespace airybench

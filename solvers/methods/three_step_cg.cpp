@@ -6,7 +6,7 @@
 namespace airybench {
 namespace {
 
-Solution solve_three_step_cg(const DualSystem& system, const RunControl& control,
+Solution solve_three_step_cg(const AirySystem& system, const RunControl& control,
                              const MakePreconditioner& make, int lanes, Refine refine) {
   Solution solution;
   const Preconditioner preconditioner =
@@ -42,9 +42,9 @@ Method three_step_cg(GeneralName name) {
   const Refine refine = name.refine();
   name.refuse_rest("lanes, refine");
   Method method = krylov_method(name, "three-step condensation, conjugate gradients with ");
-  method.solve = [=](const DualSystem& system, const RunControl& control) {
+  method.solve = on_airy_system([=](const AirySystem& system, const RunControl& control) {
     return solve_three_step_cg(system, control, make, lanes, refine);
-  };
+  });
   return method;
 }
 

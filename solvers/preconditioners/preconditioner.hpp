@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "solvers/base/lanes.hpp"
 #include "solvers/base/solution.hpp"
 

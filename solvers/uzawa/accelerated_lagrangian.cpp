@@ -21,7 +21,7 @@ void subtract_transposed(const SparseRows& C, const Eigen::Ref<const Eigen::Vect
 }
 
 // Z = P(v): F, and the forces that the contact law allows next to v + ḡ/R.
-void allowed_forces(const DualSystem& system, const Eigen::VectorXd& R,
+void allowed_forces(const AirySystem& system, const Eigen::VectorXd& R,
                     const Eigen::VectorXd& shift, const Eigen::VectorXd& v, Eigen::VectorXd& Z) {
   if (system.F.size() > 0)
     Z.head(system.n_f()) = system.F;
@@ -42,7 +42,7 @@ struct Iterate {
   double force_scale = 0, contact_scale = 0;      // the largest so far, N
 
   // From λ = 0, exactly: where nothing loads the body, nothing moves.
-  Iterate(const DualSystem& system, const Eigen::VectorXd& R)
+  Iterate(const AirySystem& system, const Eigen::VectorXd& R)
       : shift(Eigen::VectorXd::Zero(system.n_c())),
         x(system.n()),
         v(Eigen::VectorXd::Zero(R.size())) {
@@ -52,7 +52,7 @@ struct Iterate {
       shift = system.contact.gap.cwiseQuotient(R.tail(system.n_c()));
   }
 
-  void evaluate(const DualSystem& system, PenalisedFactor& penalised) {
+  void evaluate(const AirySystem& system, PenalisedFactor& penalised) {
     const int n_f = system.n_f(), n_c = system.n_c();
     const Eigen::VectorXd& R = penalised.R;
     allowed_forces(system, R, shift, v, Z);
@@ -78,7 +78,7 @@ struct Iterate {
 
 }  // namespace
 
-Eigen::VectorXd row_penalties(const DualSystem& system, double weight_F, double weight_C) {
+Eigen::VectorXd row_penalties(const AirySystem& system, double weight_F, double weight_C) {
   Eigen::VectorXd R(system.n_f() + system.n_c());
   for (int i = 0; i < system.n_f(); ++i) R(i) = weight_F / system.C_F.row(i).squaredNorm();
   for (int i = 0; i < system.n_c(); ++i)
@@ -86,13 +86,13 @@ Eigen::VectorXd row_penalties(const DualSystem& system, double weight_F, double 
   return R;
 }
 
-std::size_t accelerated_bytes(const DualSystem& system) {
+std::size_t accelerated_bytes(const AirySystem& system) {
   const Eigen::Index rows = system.n_f() + system.n_c();
   return static_cast<std::size_t>(system.n() + 8 * rows) * sizeof(double) +
          AndersonAcceleration::bytes(rows, memory);
 }
 
-UzawaResult iterate_accelerated(const DualSystem& system, PenalisedFactor& penalised,
+UzawaResult iterate_accelerated(const AirySystem& system, PenalisedFactor& penalised,
                                 const UzawaOptions& options, const Deadline& deadline) {
   constexpr double diverges = 1e6;     // as in iterate_uzawa
   constexpr int patience = 200;        // iterations without a smaller residual …

@@ -36,14 +36,14 @@ struct PenalisedFactor {
 };
 
 // R of the rows. weight_C: w on Γ_C; weight_F: where forces are prescribed.
-Eigen::VectorXd row_penalties(const DualSystem& system, double weight_F, double weight_C);
+Eigen::VectorXd row_penalties(const AirySystem& system, double weight_F, double weight_C);
 
 // The vectors of its iteration.
-std::size_t accelerated_bytes(const DualSystem& system);
+std::size_t accelerated_bytes(const AirySystem& system);
 
 // Nothing of the system's size is allocated inside an iteration, but for histories. Not const:
 // `penalised.factor` has its own workspace. Throws TimeoutReached.
-UzawaResult iterate_accelerated(const DualSystem& system, PenalisedFactor& penalised,
+UzawaResult iterate_accelerated(const AirySystem& system, PenalisedFactor& penalised,
                                 const UzawaOptions& options, const Deadline& deadline = {});
 
 }  // namespace airybench

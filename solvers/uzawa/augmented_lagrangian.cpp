@@ -41,7 +41,7 @@ struct Iterates {
   std::vector<double> rho, force_scale, displacement_scale;
   int active = 0;
 
-  Iterates(const DualSystem& system, const std::vector<double>& rhos)
+  Iterates(const AirySystem& system, const std::vector<double>& rhos)
       : rho(rhos), force_scale(rhos.size(), 0), displacement_scale(rhos.size(), 0) {
     const auto columns = static_cast<Eigen::Index>(rhos.size());
     active = static_cast<int>(columns);
@@ -63,7 +63,7 @@ struct Iterates {
 };
 
 // S̃ φ = …, for all active columns.
-void solve_for_stress(const DualSystem& system, const AugmentedFactor& a, Iterates& it) {
+void solve_for_stress(const AirySystem& system, const AugmentedFactor& a, Iterates& it) {
   auto x = it.x.leftCols(it.active);
   if (system.q.size() > 0)
     x.colwise() = system.q;
@@ -86,7 +86,7 @@ void solve_for_stress(const DualSystem& system, const AugmentedFactor& a, Iterat
 }
 
 // The projection and the multipliers of column k; residuals into `result`.
-void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates& it, int k,
+void update_column(const AirySystem& system, const AugmentedFactor& a, Iterates& it, int k,
                    UzawaResult& result) {
   auto force = it.force.col(k), contact = it.contact.col(k), F_C = it.F_C.col(k),
        change = it.on_contact.col(k);
@@ -121,7 +121,7 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
   result.dual = relative(moved, it.displacement_scale[k]);
 }
 
-Eigen::VectorXd penalties(const DualSystem& system, const AugmentedFactor& augmented) {
+Eigen::VectorXd penalties(const AirySystem& system, const AugmentedFactor& augmented) {
   Eigen::VectorXd R(system.n_f() + system.n_c());
   R << Eigen::VectorXd::Constant(system.n_f(), augmented.r_F),
       Eigen::VectorXd::Constant(system.n_c(), augmented.r_C);
@@ -135,7 +135,7 @@ std::string residuals(const UzawaResult& result) {
   return text.str();
 }
 
-void check_uzawa_answer(const DualSystem& system, const PenalisedSolve& penalised,
+void check_uzawa_answer(const AirySystem& system, const PenalisedSolve& penalised,
                         const UzawaResult& result, const RunControl& control, Solution& solution) {
   bool solved = true;
   run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
@@ -152,7 +152,7 @@ void check_uzawa_answer(const DualSystem& system, const PenalisedSolve& penalise
 
 }  // namespace
 
-SparseColumns penalised_matrix(const DualSystem& system, const Eigen::VectorXd& R) {
+SparseColumns penalised_matrix(const AirySystem& system, const Eigen::VectorXd& R) {
   refuse_free_bodies(system.contact);
   SparseColumns lower = system.S;
   add_normal_product(system.C_F, R.head(system.n_f()), lower);
@@ -160,12 +160,12 @@ SparseColumns penalised_matrix(const DualSystem& system, const Eigen::VectorXd& 
   return lower;
 }
 
-PenalisedSolve penalised_solve(const DualSystem& system, const AugmentedFactor& augmented) {
+PenalisedSolve penalised_solve(const AirySystem& system, const AugmentedFactor& augmented) {
   return {penalties(system, augmented),
           [&augmented](Eigen::VectorXd& x) { solve_in_place(augmented.factor, x); }};
 }
 
-AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadline& deadline) {
+AugmentedFactor factor_augmented(const AirySystem& system, double r, const Deadline& deadline) {
   const double mean_S = mean_magnitude_symmetric(system.S);
   const double mean_F = mean_magnitude(system.C_F), mean_C = mean_magnitude(system.C_C);
   AugmentedFactor result;
@@ -177,12 +177,12 @@ AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadl
   return result;
 }
 
-std::size_t uzawa_bytes(const DualSystem& system, int count) {
+std::size_t uzawa_bytes(const AirySystem& system, int count) {
   return static_cast<std::size_t>(count * (2 * system.n() + 4 * system.n_f() + 6 * system.n_c())) *
          sizeof(double);
 }
 
-std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
+std::vector<UzawaResult> iterate_uzawa(const AirySystem& system, const AugmentedFactor& augmented,
                                        const std::vector<double>& rhos, const UzawaOptions& options,
                                        bool race, const Deadline& deadline) {
   // A residual that has grown so much, or is not finite, does not come back.
@@ -230,7 +230,7 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
   return results;
 }
 
-bool solve_saddle(const DualSystem& system, const PenalisedSolve& penalised, SaddleVector& v,
+bool solve_saddle(const AirySystem& system, const PenalisedSolve& penalised, SaddleVector& v,
                   const Deadline& deadline) {
   constexpr int most_iterations = 500;
   const int n_f = system.n_f(), n_c = system.n_c();
@@ -285,7 +285,7 @@ UzawaOptions uzawa_options(const RunControl& control) {
   return options;
 }
 
-void store_uzawa_answer(const DualSystem& system, const RunControl& control,
+void store_uzawa_answer(const AirySystem& system, const RunControl& control,
                         const PenalisedSolve& penalised, const std::string& parameters,
                         UzawaResult result, Solution& solution) {
   solution.parameters = parameters;

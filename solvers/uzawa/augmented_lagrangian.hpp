@@ -26,7 +26,7 @@
 #include <functional>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "solvers/base/solution.hpp"
 #include "solvers/condensation/airy_refinement.hpp"
 #include "solvers/direct/skyline.hpp"
@@ -35,14 +35,14 @@ namespace airybench {
 
 // S + Cᵀ R C, lower triangle, R diagonal over the rows of C = [C_F; C_C]. Throws Breakdown where
 // contact alone holds a body.
-SparseColumns penalised_matrix(const DualSystem& system, const Eigen::VectorXd& R);
+SparseColumns penalised_matrix(const AirySystem& system, const Eigen::VectorXd& R);
 
 struct AugmentedFactor {
   double r = 0, r_F = 0, r_C = 0;
   SkylineFactor factor;  // of S̃
 };
 // Throws Breakdown, TimeoutReached.
-AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadline& deadline = {});
+AugmentedFactor factor_augmented(const AirySystem& system, double r, const Deadline& deadline = {});
 
 struct UzawaOptions {
   Stop stop = Stop::target;
@@ -65,13 +65,13 @@ struct UzawaResult {
 };
 
 // Of the iterates and results of `count` values of ρ.
-std::size_t uzawa_bytes(const DualSystem& system, int count);
+std::size_t uzawa_bytes(const AirySystem& system, int count);
 
 // One iteration for every ρ, side by side: they share the reading of the factor. race: the others
 // are given up when the first converges, and no solutions and histories are kept. Nothing is
 // allocated inside an iteration, but for histories and bodies that press on each other. Throws
 // TimeoutReached.
-std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
+std::vector<UzawaResult> iterate_uzawa(const AirySystem& system, const AugmentedFactor& augmented,
                                        const std::vector<double>& rhos, const UzawaOptions& options,
                                        bool race = false, const Deadline& deadline = {});
 
@@ -82,18 +82,18 @@ struct PenalisedSolve {
   double tolerance = 1e-4;  // of solve_saddle, the residual's over the first one's
 };
 // Refers to the factor.
-PenalisedSolve penalised_solve(const DualSystem& system, const AugmentedFactor& augmented);
+PenalisedSolve penalised_solve(const AirySystem& system, const AugmentedFactor& augmented);
 
 // Solves [S Cᵀ; C 0] for any right-hand side, in place, by conjugate gradients on C S̃⁻¹ Cᵀ, to a
 // relative residual. False where that is not reached in 500 iterations.
-bool solve_saddle(const DualSystem& system, const PenalisedSolve& penalised, SaddleVector& v,
+bool solve_saddle(const AirySystem& system, const PenalisedSolve& penalised, SaddleVector& v,
                   const Deadline& deadline = {});
 
 UzawaOptions uzawa_options(const RunControl& control);
 
 // From the end of an iteration to the solution: φ, stresses, status, and the check. parameters: for
 // the record and for messages. penalised: for the check's conjugate gradients.
-void store_uzawa_answer(const DualSystem& system, const RunControl& control,
+void store_uzawa_answer(const AirySystem& system, const RunControl& control,
                         const PenalisedSolve& penalised, const std::string& parameters,
                         UzawaResult result, Solution& solution);
 

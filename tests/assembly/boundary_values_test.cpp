@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "assembly/problem/pose.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/posed.hpp"
@@ -74,7 +74,7 @@ TEST(BoundaryValues, ARollersTangentialForcesAreRowsOfTheForcesThatAreKnown) {
   const Mesh mesh = testing::small_block(4, 3, 0);  // three edges at the root, four at the bottom
   const auto rows = [&] {
     const auto problem = testing::posed(scene, mesh);
-    const DualSystem system = assemble(problem);
+    const AirySystem system = airy_system(problem);
     return std::pair(system.n_f(), system.n_c());
   };
   EXPECT_EQ(rows(), std::pair(4 * 8, 4 * 3));
@@ -86,7 +86,7 @@ TEST(BoundaryValues, ARollersTangentialForcesAreRowsOfTheForcesThatAreKnown) {
     if (boundary_label(held, edge) == "force:bottom") edge.role = BoundaryRole::displacement;
   scene.boundary["displacement:bottom"].support = Support::normal;
   const auto problem = testing::posed(scene, held);
-  EXPECT_EQ(assemble(problem).n_f(), 4 * 4 + 2 * 3 + 2 * 3 + 2 * 4);
+  EXPECT_EQ(airy_system(problem).n_f(), 4 * 4 + 2 * 3 + 2 * 3 + 2 * 4);
 }
 
 std::string complaint(const std::function<void(Scene&)>& spoil,

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/problem/pose.hpp"
 #include "tests/support/complaint.hpp"
@@ -158,7 +158,7 @@ TEST(Wall, ContactGroupsHaveTheirOwnWallFrictionAndClearance) {
   own.friction = 0;
   own.clearance_mm = 0.25;
   own.wall = FlatWall{{10.5, 0}, {-1, 0}};
-  const DualSystem system = assemble(testing::posed(scene, block));
+  const AirySystem system = airy_system(testing::posed(scene, block));
   EXPECT_EQ(system.contact.components, 2);
   int of_upper = 0;
   for (int p = 0; p < system.contact.count; ++p) {

@@ -12,11 +12,11 @@ int main(int count, char** arguments) try {
   using namespace airybench;
   if (count < 2) return 2;
   const auto problem = std::make_shared<const Problem>(pose(Scene{}, read_msh(arguments[1])));
-  const DualSystem system = assemble(problem);
   const Method method = select_methods(count > 2 ? arguments[2] : "HYBRID").front();
-  const Solution solution = run(method, system, {});
-  const Reference reference = compute_reference(assemble(problem, Blocks::contact_points));
-  const Verification verified = verify(system, solution, &reference);
+  const auto system = assemble(method, problem);
+  const Solution solution = run(method, *system, {});
+  const Reference reference = compute_reference(contact_system(problem));
+  const Verification verified = verify(*system, solution, &reference);
   std::printf("%s: resultant %.6f N, error of the stresses %.1e\n", method.name.c_str(),
               *verified.normal_resultant_N, *verified.error_stress);
   return solution.status == Status::ok && *verified.error_stress < 1e-9 ? 0 : 1;

@@ -97,7 +97,7 @@ class IncludesTest(unittest.TestCase):
         for file, included in (("bench/report/claims.cpp", "solvers/methods.hpp"),
                                ("solvers/methods/blind.cpp", "bench/verify/verifier.hpp"),
                                ("mesh/mesh.cpp", "assembly/problem/problem.hpp"),
-                               ("assembly/problem/scene.cpp", "assembly/dual_system.hpp"),
+                               ("assembly/problem/scene.cpp", "assembly/contact_system.hpp"),
                                ("solvers/contact/gauss_seidel.cpp",
                                 "solvers/condensation/three_step.hpp"),
                                ("bench/records/record.cpp", "bench/run/runner.hpp")):

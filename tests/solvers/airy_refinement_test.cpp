@@ -21,7 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 struct Dense {
-  DualSystem system;
+  AirySystem system;
   std::function<MatrixXd(MatrixXd)> solve_with;
 
   explicit Dense(const Scene& scene)
@@ -138,7 +138,7 @@ TEST(AiryResidual, IsThatOfTheBlocksForAnyVector) {
   for (const Scene& scene : scenes()) {
     SCOPED_TRACE(number++);
     const Dense d(scene);
-    const DualSystem& s = d.system;
+    const AirySystem& s = d.system;
     std::srand(7);
     const VectorXd x = VectorXd::Random(s.n()), lambda_F = VectorXd::Random(s.n_f()),
                    lambda_C = VectorXd::Random(s.n_c()), F_C = VectorXd::Random(s.n_c());

@@ -18,11 +18,11 @@ namespace {
 
 using testing::force_error, testing::solved_by, testing::system_of, testing::with_tolerance;
 
-Tuning tune(const DualSystem& system, const RunControl& control) {
+Tuning tune(const AirySystem& system, const RunControl& control) {
   return select_methods("ALM").front().tune(system, control);
 }
 
-void expect_in_cone(const DualSystem& system, const Eigen::VectorXd& F_C) {
+void expect_in_cone(const AirySystem& system, const Eigen::VectorXd& F_C) {
   const ContactPoints& contact = system.contact;
   for (int p = 0; p < contact.count; ++p) {
     const double normal = F_C(contact.components * p);
@@ -38,7 +38,7 @@ const std::string grid_point = "ALM:r=20,rho=20";
 class AugmentedLagrangian : public ::testing::TestWithParam<std::string> {
  protected:
   static bool is_automatic() { return GetParam() == "ALM:AUTO"; }
-  static Solution solve(const DualSystem& system, const RunControl& control = {}) {
+  static Solution solve(const AirySystem& system, const RunControl& control = {}) {
     return solved_by(GetParam(), system, control);
   }
 };
@@ -55,7 +55,7 @@ TEST_P(AugmentedLagrangian, ConvergesToTheReferenceOnEveryScene) {
       names.emplace_back(name);
   const double off = is_automatic() ? 100 : 1;
   for (const auto& [name, scene] : testing::scenes_named(names)) {
-    const DualSystem system = system_of(scene);
+    const AirySystem system = system_of(scene);
     const Solution reference = solved_by("HYBRID", system);
     const Solution solution = solve(system, with_tolerance(1e-12 * off));
     ASSERT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
@@ -72,7 +72,7 @@ TEST_P(AugmentedLagrangian, ConvergesToTheReferenceOnEveryScene) {
 }
 
 TEST_P(AugmentedLagrangian, ATighterToleranceIsASmallerErrorAndMoreIterations) {
-  const DualSystem system = system_of();
+  const AirySystem system = system_of();
   const Solution reference = solved_by("HYBRID", system);
   double error = 1;
   std::int64_t iterations = 0;
@@ -86,7 +86,7 @@ TEST_P(AugmentedLagrangian, ATighterToleranceIsASmallerErrorAndMoreIterations) {
 }
 
 TEST_P(AugmentedLagrangian, ThePapersStopIsFeasibilityOnlyAndLeavesALargerError) {
-  const DualSystem system = system_of();
+  const AirySystem system = system_of();
   RunControl control = with_tolerance(1e-8);
   control.stop = Stop::paper;
   control.histories = true;
@@ -104,7 +104,7 @@ TEST_P(AugmentedLagrangian, ThePapersStopIsFeasibilityOnlyAndLeavesALargerError)
 
 TEST_P(AugmentedLagrangian, WhatIsNotFiniteIsABreakdown) {
   for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    DualSystem system = system_of();
+    AirySystem system = system_of();
     system.q = Eigen::VectorXd::Constant(system.n(), poison);
     EXPECT_EQ(solve(system).status, Status::breakdown);
     EXPECT_THROW(tune(system, with_tolerance(1e-6)), Breakdown);
@@ -118,7 +118,7 @@ TEST_P(AugmentedLagrangian, WithoutContactItSolvesTheEqualities) {
   Scene scene;
   scene.crown_radius_mm.reset();
   scene.body_force_N_per_mm3 = {3, -1};
-  const DualSystem system = system_of(
+  const AirySystem system = system_of(
       scene,
       testing::with_role(testing::small_tooth(6, 5), BoundaryRole::contact, BoundaryRole::force));
   const Solution reference = solved_by("HYBRID", system);
@@ -145,7 +145,7 @@ TEST(GridLagrangian, OutOfTimeIsATimeoutOfTuningToo) {
 }
 
 TEST(GridLagrangian, AnyParametersThatConvergeHaveTheSameLimit) {
-  const DualSystem system = system_of();
+  const AirySystem system = system_of();
   const Solution reference = solved_by("HYBRID", system);
   for (const char* method :
        {"ALM:r=5,rho=5", "ALM:r=60,rho=60", "ALM:r=40,rho=20", "ALM:r=20,rho=30"}) {
@@ -167,7 +167,7 @@ TEST(GridLagrangian, TooLargeAStepIsNotConvergedWithItsNumbers) {
 }
 
 TEST(GridLagrangian, SeveralStepsSideBySideAreEachAlone) {
-  const DualSystem system = system_of();
+  const AirySystem system = system_of();
   const AugmentedFactor augmented = factor_augmented(system, 20);
   UzawaOptions options;
   options.tolerance = 1e-6;
@@ -192,7 +192,7 @@ TEST(GridLagrangian, SeveralStepsSideBySideAreEachAlone) {
 }
 
 TEST(GridLagrangian, TuningTriesTheWholeGridAndTakesTheFewestIterations) {
-  const DualSystem system = system_of();
+  const AirySystem system = system_of();
   for (const Stop stop : {Stop::target, Stop::paper}) {
     RunControl control = with_tolerance(1e-6);
     control.stop = stop;
@@ -228,7 +228,7 @@ TEST(AutomaticLagrangian, PenaltiesFollowGradedEdgesAndMaterials) {
   Scene scene;
   scene.mesh.grade = Grading{{10, 3}, 100};
   scene.material.young_MPa = 3;
-  const DualSystem system = system_of(scene);
+  const AirySystem system = system_of(scene);
   const Solution solution = solved_by("ALM:AUTO", system), reference = solved_by("HYBRID", system);
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   EXPECT_LT(force_error(solution, reference), 1e-6);
@@ -236,7 +236,7 @@ TEST(AutomaticLagrangian, PenaltiesFollowGradedEdgesAndMaterials) {
 }
 
 TEST(AutomaticLagrangian, ItsOwnEstimateIsNotBelowItsError) {
-  const DualSystem system = system_of();
+  const AirySystem system = system_of();
   const Solution reference = solved_by("HYBRID", system);
   for (const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8}) {
     const RunControl control = with_tolerance(tolerance);

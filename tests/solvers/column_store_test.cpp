@@ -90,7 +90,7 @@ TEST(ColumnStore, AFolderThatCannotTakeItIsNamed) {
 TEST(ColumnStore, AMethodWithoutRoomForItsFileBreaksDown) {
   const testing::TemporaryFolder folder;
   const testing::EnvironmentVariable variable("TMPDIR", folder / "nowhere");
-  const DualSystem system = system_of();
+  const AirySystem system = system_of();
   const Solution solution = solved_by("3STEPD:FILE", system);
   EXPECT_EQ(solution.status, Status::breakdown);
   EXPECT_NE(solution.message.find((folder / "nowhere").string()), std::string::npos);
@@ -102,7 +102,7 @@ TEST(ColumnStore, WhereTheMatricesAreDoesNotChangeTheAnswer) {
   body_force.body_force_N_per_mm3 = {3, -1};
   frictionless.friction = 0;
   for (const Scene& scene : {Scene{}, body_force, frictionless}) {
-    const DualSystem system = system_of(scene);
+    const AirySystem system = system_of(scene);
     const Solution memory = solved_by("3STEPD", system);
     ASSERT_EQ(memory.status, Status::ok);
     const Solution file = solved_by("3STEPD:FILE", system), lean = solved_by("3STEPD:LEAN", system);
@@ -117,7 +117,7 @@ TEST(ColumnStore, WhereTheMatricesAreDoesNotChangeTheAnswer) {
 TEST(ColumnStore, BatchesOfAnySizeMakeTheSameCondensedSystem) {
   Scene body_force;
   body_force.body_force_N_per_mm3 = {3, -1};
-  const DualSystem system = system_of(body_force);
+  const AirySystem system = system_of(body_force);
   const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
   const SolveInPlace solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); };
   const ThreeStep whole = condense_in_three_steps(system, solve_S);

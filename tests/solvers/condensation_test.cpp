@@ -20,7 +20,7 @@ namespace {
 using testing::posed;
 using testing::scene_variants;
 
-contact::Problem three_step_condensed(const DualSystem& system) {
+contact::Problem three_step_condensed(const AirySystem& system) {
   const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
   return condense_in_three_steps(system,
                                  [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); })
@@ -28,7 +28,7 @@ contact::Problem three_step_condensed(const DualSystem& system) {
 }
 
 TEST(Condensation, ComplianceIsSymmetricPositiveDefinite) {
-  const contact::Problem condensed = three_step_condensed(assemble(posed({})));
+  const contact::Problem condensed = three_step_condensed(airy_system(posed({})));
   EXPECT_EQ(testing::distance(condensed.D, condensed.D.transpose()), 0);
   const Eigen::VectorXd eigenvalues = testing::eigenvalues(condensed.D);
   EXPECT_GT(eigenvalues(0), 1e-5 * eigenvalues(eigenvalues.size() - 1));
@@ -36,7 +36,7 @@ TEST(Condensation, ComplianceIsSymmetricPositiveDefinite) {
 
 TEST(Condensation, EverySystemGivesTheSameNumbers) {
   for (const auto& [name, scene] : scene_variants()) {
-    const DualSystem system = assemble(posed(scene));
+    const AirySystem system = airy_system(posed(scene));
     const contact::Problem reference = three_step_condensed(system);
     const auto expect_equal = [&, &label = name](const contact::Problem& other, const char* how,
                                                  double tolerance = 1e-10) {
@@ -69,7 +69,7 @@ TEST(Condensation, EverySystemGivesTheSameNumbers) {
 }
 
 TEST(Condensation, ConstraintsThatDependOnEachOtherAreABreakdown) {
-  DualSystem system = assemble(posed({}));
+  AirySystem system = airy_system(posed({}));
   SparseRows doubled = system.C_F;
   doubled.row(1) = doubled.row(0);
   system.C_F = doubled;
@@ -81,7 +81,7 @@ TEST(Condensation, ConstraintsThatDependOnEachOtherAreABreakdown) {
 TEST(Condensation, NotFiniteInputIsABreakdown) {
   for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     for (const char* method : {"3STEPD", "3STEPD:CHOLMOD"}) {
-      DualSystem system = assemble(posed({}));
+      AirySystem system = airy_system(posed({}));
       system.S.valuePtr()[5] = poison;
       const Solution solution = run(select_methods(method).front(), system, {});
       EXPECT_TRUE(solution.status == Status::breakdown || solution.status == Status::not_converged)

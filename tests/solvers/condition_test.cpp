@@ -75,7 +75,7 @@ TEST(ConditionEstimate, ASingularMatrixIsInfinite) {
 // κ₁ lies between κ₂ and n κ₂. κ₂ by extreme eigenvalues: of S and K with unit diagonal 5.5e5 and
 // about 1e4 on Mesh0 (docs/theory-displacements.md).
 TEST(ConditionEstimate, OfEveryMethodThatFactorises) {
-  const DualSystem system = testing::system_of({}, testing::catalogue_mesh("Mesh0"));
+  const AirySystem system = testing::system_of({}, testing::catalogue_mesh("Mesh0"));
   RunControl control;
   control.condition = true;
   const auto of = [&](const char* name) {

@@ -21,7 +21,7 @@ namespace {
 using testing::small_tooth;
 
 struct Solved {
-  DualSystem system;
+  ContactSystem system;
   Solution solution;
 };
 
@@ -30,7 +30,7 @@ Solved solved(const std::shared_ptr<const Problem>& problem, int degree,
               const std::string& name = "") {
   const Method method = select_methods(name.empty() ? hybrid_of_degree(degree) : name).front();
   EXPECT_EQ(method.degree, degree);
-  DualSystem system = assemble(problem, method.blocks, method.degree);
+  ContactSystem system = contact_system(problem, degree);
   Solution solution = run(method, system, {});
   EXPECT_EQ(solution.status, Status::ok) << solution.message;
   EXPECT_LT(solution.error_estimate.value_or(1), 1e-8) << degree;  // 2e-9 on the graded tooth
@@ -63,7 +63,7 @@ TEST(Degrees, ContactStartsFromLinearTractions) {
       problem = condensed;
       return solve_contact(condensed);
     };
-    run(method, assemble(testing::posed(scene, mesh), method.blocks, degree), control);
+    run(method, contact_system(testing::posed(scene, mesh), degree), control);
     ASSERT_TRUE(has_linear_tractions(problem));
     const contact::Problem linear = in_linear_tractions(problem);
     EXPECT_EQ(linear.points.count * (degree + 1), problem.points.count * 2);
@@ -166,7 +166,7 @@ std::vector<Eigen::Vector4d> along_a_path(const Mesh& mesh, int degree) {
   scene.later_steps[1].displacement_mm = Eigen::Vector2d(0.02, 0);
   std::vector<Eigen::Vector4d> path;
   solve_load_steps(select_methods(hybrid_of_degree(degree)).front(), testing::posed(scene, mesh),
-                   {}, [&](int, const DualSystem& system, const Solution& answer) {
+                   {}, [&](int, const ContactSystem& system, const Solution& answer) {
                      EXPECT_EQ(answer.status, Status::ok) << answer.message;
                      EXPECT_LT(answer.error_estimate.value_or(1), 1e-8) << degree;
                      const Solved step{system, answer};

@@ -29,8 +29,8 @@ class Displacements : public ::testing::TestWithParam<Method> {
  protected:
   const int k = GetParam().degree, p = k + 1;
 
-  DualSystem assembled(const std::shared_ptr<const Problem>& problem) const {
-    return assemble(problem, Blocks::contact_points, k);
+  ContactSystem assembled(const std::shared_ptr<const Problem>& problem) const {
+    return contact_system(problem, k);
   }
   Solution solve(const std::shared_ptr<const Problem>& problem,
                  const RunControl& control = {}) const {
@@ -234,7 +234,7 @@ TEST(DisplacementDegrees, AreNearerToTheEnergyOfTheToothOneByOne) {
       Scene scene;
       scene.friction = friction;
       const auto problem = posed(scene, small_tooth(12, 9));
-      const DualSystem system = assemble(problem, Blocks::contact_points, degree - 1);
+      const ContactSystem system = contact_system(problem, degree - 1);
       const Solution own = testing::solved_by(displacements_of_degree(degree), system),
                      hybrid = testing::solved_by(hybrid_of_degree(degree - 1), system);
       const int m = system.contact.components;
@@ -300,7 +300,7 @@ Scene pushing(const Mesh& mesh, double moved_mm) {
   return scene;
 }
 
-double friction_on_block(const DualSystem& system, const Solution& solution) {
+double friction_on_block(const ContactSystem& system, const Solution& solution) {
   const ControlPoints control = control_points(*system.problem, system.degree + 1);
   const Mesh& mesh = system.problem->mesh;
   double sum = 0;
@@ -323,16 +323,16 @@ TEST_P(Displacements, KeepFrictionWhereARollerMeetsTheFace) {
       scene.later_steps = {back};
       const auto problem = posed(scene, mesh);
       std::vector<double> friction_N, dissipated, of_hybrid;
-      DualSystem system = assembled(problem);
+      ContactSystem system = assembled(problem);
       solve_load_steps(GetParam().solve, system, {},
-                       [&](int, const DualSystem& step, const Solution& solution) {
+                       [&](int, const ContactSystem& step, const Solution& solution) {
                          ASSERT_EQ(solution.status, Status::ok) << solution.message;
                          friction_N.push_back(friction_on_block(step, solution));
                          dissipated.push_back(dissipation_Nmm(step, solution));
                        });
-      DualSystem in_stresses = assembled(problem);
+      ContactSystem in_stresses = assembled(problem);
       solve_load_steps(select_methods(hybrid_of_degree(k)).front().solve, in_stresses, {},
-                       [&](int, const DualSystem& step, const Solution& solution) {
+                       [&](int, const ContactSystem& step, const Solution& solution) {
                          of_hybrid.push_back(dissipation_Nmm(step, solution));
                        });
       ASSERT_EQ(friction_N.size(), 2u);
@@ -348,7 +348,7 @@ TEST_P(Displacements, KeepFrictionWhereARollerMeetsTheFace) {
 TEST_P(Displacements, OfARollerThatRestsAreWithoutFriction) {
   const Mesh mesh = pushed_block(false, "");
   const Scene scene = pushing(mesh, 0);
-  const DualSystem system = assembled(posed(scene, mesh));
+  const ContactSystem system = assembled(posed(scene, mesh));
   const Solution solution = run(GetParam(), system, {});
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   const ControlPoints control = control_points(*system.problem, p);
@@ -378,10 +378,10 @@ TEST_P(Displacements, WhatGoesWrongBecomesAStatus) {
   EXPECT_EQ(solve(posed({}), testing::out_of_time()).status, Status::timeout);
 
   const auto problem = posed({});
-  const DualSystem system = assembled(problem);
+  const ContactSystem system = assembled(problem);
   const auto spoiled = [&](auto spoil) {
     return run(
-        [&](const DualSystem& s, const RunControl& control) {
+        [&](const ContactSystem& s, const RunControl& control) {
           Solution solution = GetParam().solve(s, control);
           spoil(solution);
           return solution;

@@ -18,7 +18,7 @@ namespace airybench::example_test {
 namespace {
 
 TEST(Example, TheMethodHasTheAnswerOfHybrid) {
-  const DualSystem system = testing::system_of({}, testing::catalogue_mesh("Mesh0"));
+  const AirySystem system = testing::system_of({}, testing::catalogue_mesh("Mesh0"));
   const Solution solution = run(example_of_a_method(), system, {});
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   const Solution other = testing::solved_by("HYBRID", system);

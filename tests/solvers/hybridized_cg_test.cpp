@@ -21,7 +21,7 @@ using testing::posed, testing::small_rack, testing::small_tooth;
 
 Solution solve(const char* method, const std::shared_ptr<const Problem>& problem,
                const RunControl& control = {}) {
-  return testing::solved_by(method, assemble(problem, Blocks::contact_points), control);
+  return testing::solved_by(method, contact_system(problem), control);
 }
 
 // As the harness begins with it.
@@ -32,8 +32,7 @@ RunControl first_control() {
 
 // The larger of the relative errors in stress and force, energy norms, HYBRID being right to 1e-10.
 double true_error(const Problem& problem, const Solution& solution, const Solution& exact) {
-  const ContactPoints contact =
-      assemble(std::make_shared<const Problem>(problem), Blocks::contact_points).contact;
+  const ContactPoints contact = contact_system(std::make_shared<const Problem>(problem)).contact;
   const Eigen::MatrixXd D = testing::condensed(problem, contact).D;
   const double stress = std::sqrt(stress_norm_squared(problem, exact.stress)),
                force = D_norm(D, exact.F_C);
@@ -174,7 +173,7 @@ TEST(HybridizedCg, RandomScenesAreSolvedOrItSaysThatTheyAreNot) {
 TEST(TwoLevels, AreSymmetricAndAboveTheStiffness) {
   Mesh mesh = small_tooth(4, 3);
   for (const CoarseKind kind : {CoarseKind::linear, CoarseKind::per_edge}) {
-    const DualSystem airy = assemble(posed({}, mesh), Blocks::contact_points);
+    const ContactSystem airy = contact_system(posed({}, mesh));
     const HybridizedSystem system = assemble_hybridized(*airy.problem, airy.contact);
     const EdgeMatrix K = make_edge_matrix(*airy.problem, system);
     auto coarse = std::make_unique<CoarseDisplacements>(*airy.problem, airy.contact, K, kind);

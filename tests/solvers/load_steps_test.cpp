@@ -68,11 +68,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(LoadSteps, TheFirstIsTheSingleSolve) {
   const auto problem = path({{0.02, 0.006}, {0.02, 0}});
-  const Solution alone =
-      run(GetParam(), assemble(problem, GetParam().blocks, GetParam().degree), control());
+  const Solution alone = run(GetParam(), *assemble(GetParam(), problem), control());
   int steps = 0;
   solve_load_steps(GetParam(), problem, control(),
-                   [&](int step, const DualSystem&, const Solution& answer) {
+                   [&](int step, const ContactSystem&, const Solution& answer) {
                      EXPECT_EQ(step, steps++);
                      if (step > 0) return;
                      EXPECT_EQ(answer.F_C, alone.F_C);
@@ -115,8 +114,9 @@ TEST_P(LoadSteps, DraggedToAndFroItGoesThroughTheHysteresisLoop) {
   const std::vector<Eigen::Vector2d> places = {
       {pressed, far}, {pressed, far - 1e-9}, {pressed, -far}, {pressed, far}};
   std::vector<Solution> at;
-  solve_load_steps(GetParam(), path(places), control(),
-                   [&](int, const DualSystem&, const Solution& answer) { at.push_back(answer); });
+  solve_load_steps(
+      GetParam(), path(places), control(),
+      [&](int, const ContactSystem&, const Solution& answer) { at.push_back(answer); });
   ASSERT_EQ(at.size(), places.size());
   const auto ratio = [](const Solution& s) {
     return tangential_resultant(s) / normal_resultant(s);
@@ -140,7 +140,7 @@ TEST(LoadStepsOfHybrid, InHalvesTheyAreTwiceAsMany) {
   const Method method = select_methods("HYBRID").front();
   const auto forces = [&](const std::shared_ptr<const Problem>& first) {
     std::vector<Eigen::VectorXd> all;
-    solve_load_steps(method, first, {}, [&](int, const DualSystem&, const Solution& answer) {
+    solve_load_steps(method, first, {}, [&](int, const ContactSystem&, const Solution& answer) {
       all.push_back(answer.F_C);
     });
     return all;
@@ -202,7 +202,7 @@ TEST(LoadStepsOfHybrid, BeginWithTheForcesOfTheStepBefore) {
   const Method method = select_methods("HYBRID").front();
   int warm = 0, cold = 0;
   solve_load_steps(method, path(places, {}, testing::small_tooth(24, 20)), {},
-                   [&](int, const DualSystem& system, const Solution& answer) {
+                   [&](int, const ContactSystem& system, const Solution& answer) {
                      const Solution alone = run(method, system, {});
                      EXPECT_LT(testing::distance(answer.F_C, alone.F_C), 1e-9 * alone.F_C.norm());
                      warm += answer.newton_steps.value();
@@ -235,7 +235,7 @@ TEST_P(LoadSteps, AnyLoadMayChange) {
   const Solution other = solve_load_steps(select_methods("HYBRID").front(), problem, {});
   EXPECT_NEAR(normal_resultant(answer), normal_resultant(other),
               0.05 * std::abs(normal_resultant(other)));
-  if (!GetParam().in_displacements && GetParam().degree == 1) {
+  if (!GetParam().in_displacements() && GetParam().degree == 1) {
     EXPECT_LT(apart(answer, other), 1e-6);
   }
 }
@@ -244,7 +244,7 @@ TEST_P(LoadSteps, AnyLoadMayChange) {
 TEST(LoadStepsOf, StressesOfEveryDegreeTheSlipIsKnownByAllItsMoments) {
   for (int k = 1; k <= highest_stress_degree; ++k) {
     const auto problem = path({{0.02, 0.006}});
-    const DualSystem system = assemble(problem, Blocks::contact_points, k);
+    const ContactSystem system = contact_system(problem, k);
     const Solution answer = run(select_methods(hybrid_of_degree(k)).front(), system, {});
     const Eigen::VectorXd slip = relative_to_gap(system.contact, answer.contact_displacement);
     Loads next = path({{0.02, 0.006}})->loads;
@@ -273,7 +273,7 @@ TEST(LoadStepsOf, AMethodThatFailsEndsThePath) {
   control.most_iterations = 2;
   const Solution last =
       solve_load_steps(select_methods("ALM:r=20,rho=44").front(), path({{0.02, 0}, {0.02, 0.006}}),
-                       control, [&](int, const DualSystem&, const Solution&) { ++steps; });
+                       control, [&](int, const ContactSystem&, const Solution&) { ++steps; });
   EXPECT_EQ(last.status, Status::not_converged);
   EXPECT_GE(steps, 1);
 }

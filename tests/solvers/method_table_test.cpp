@@ -14,7 +14,7 @@ namespace {
 
 // Entries and flops of the factor or preconditioner; none where there is none.
 TEST(WorkCounts, AreThoseOfTheFactor) {
-  const DualSystem system = testing::system_of();
+  const AirySystem system = testing::system_of();
   const auto counted = [&](const char* name) { return testing::solved_by(name, system); };
   const SkylineProfile profile = analyse_skyline(system.S);
   for (const char* name : {"3STEPD", "3STEPCG:SKY"}) {
@@ -112,7 +112,7 @@ TEST(Methods, TooFewIterationsAreNotConvergedWithTheirNumber) {
 }
 
 TEST(Methods, WhateverAMethodDoesBecomesAStatus) {
-  const DualSystem system = assemble(testing::posed({}), Blocks::contact_points);
+  const ContactSystem system = contact_system(testing::posed({}));
   const auto status = [&](const Solve& solve) { return run(solve, system, {}).status; };
   EXPECT_EQ(status([](auto&, auto&) -> Solution { throw std::bad_alloc(); }),
             Status::out_of_memory);
@@ -121,7 +121,7 @@ TEST(Methods, WhateverAMethodDoesBecomesAStatus) {
   EXPECT_EQ(status([](auto&, auto&) -> Solution { throw std::logic_error("x"); }), Status::crashed);
   EXPECT_EQ(status([](auto&, auto&) { return Solution{}; }), Status::crashed);
   const auto claim_success = [](auto change) {
-    return [=](const DualSystem& s, const RunControl&) {
+    return [=](const ContactSystem& s, const RunControl&) {
       Solution solution;
       solution.status = Status::ok;
       solution.F_C = Eigen::VectorXd::Zero(s.contact.size());

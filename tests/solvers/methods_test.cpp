@@ -22,14 +22,15 @@ class EveryKindOfMethod : public ::testing::TestWithParam<Method> {
   // Iterative methods as far as rounding lets them go.
   Solution solve(std::shared_ptr<const Problem> problem,
                  const RunControl& control = testing::with_tolerance(1e-13)) {
-    system_ = assemble(std::move(problem), GetParam().blocks);
-    return run(GetParam(), system_, control);
+    system_ = assemble(GetParam(), std::move(problem));
+    return run(GetParam(), *system_, control);
   }
   // The answer of a method of another kind.
   static Solution other_answer(const std::shared_ptr<const Problem>& problem) {
-    return testing::solved_by(GetParam().name == "HYBRID" ? "3STEPD" : "HYBRID", assemble(problem));
+    return testing::solved_by(GetParam().name == "HYBRID" ? "3STEPD" : "HYBRID",
+                              airy_system(problem));
   }
-  DualSystem system_;
+  std::unique_ptr<ContactSystem> system_;
 };
 INSTANTIATE_TEST_SUITE_P(Table, EveryKindOfMethod, ::testing::ValuesIn(testing::kinds_of_methods()),
                          testing::readable);
@@ -50,7 +51,9 @@ TEST_P(EveryKindOfMethod, ReproducesLinearStressesExactlyWithoutContact) {
       EXPECT_LT(stress_deviation(*problem, solution.stress, exact), 1e-10);
       EXPECT_FALSE(solution.contact_iterations);
       EXPECT_FALSE(solution.times[Stage::contact]);
-      EXPECT_TRUE(!all_held || system_.n_f() + system_.n_c() == 0);
+      if (const auto* airy = dynamic_cast<const AirySystem*>(system_.get()); airy && all_held) {
+        EXPECT_EQ(airy->n_f() + airy->n_c(), 0);
+      }
     }
   }
 }
@@ -125,9 +128,9 @@ TEST_P(EveryKindOfMethod, ReactionsAndContactForcesBalanceTheBodyForce) {
         reactions +=
             element_edge_forces(problem->vertices_of(t), solution.stress[t], k).rowwise().sum();
     });
-    for (int p = 0; p < system_.contact.count; ++p)  // n = x, s = y on the tip
-      for (int k = 0; k < system_.contact.components; ++k)
-        contact(k) += solution.F_C(system_.contact.components * p + k);
+    for (int p = 0; p < system_->contact.count; ++p)  // n = x, s = y on the tip
+      for (int k = 0; k < system_->contact.components; ++k)
+        contact(k) += solution.F_C(system_->contact.components * p + k);
     const Eigen::Vector2d weight = 80 * scene.body_force_N_per_mm3;  // 80 mm² of body
     EXPECT_LT((reactions + contact + weight).norm(), 1e-9 * reactions.norm()) << mu;
   }

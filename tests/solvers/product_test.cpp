@@ -25,19 +25,17 @@ Mesh mesh_named(const std::string& name) {
 }
 
 // Assembled once.
-const DualSystem& system_of(const std::string& mesh, Blocks blocks = Blocks::airy) {
-  static std::map<std::pair<std::string, Blocks>, DualSystem> systems;
-  const auto key = std::pair(mesh, blocks);
-  if (!systems.contains(key))
-    systems.emplace(key, assemble(testing::posed({}, mesh_named(mesh)), blocks));
-  return systems.at(key);
+const AirySystem& system_of(const std::string& mesh) {
+  static std::map<std::string, AirySystem> systems;
+  if (!systems.contains(mesh))
+    systems.emplace(mesh, airy_system(testing::posed({}, mesh_named(mesh))));
+  return systems.at(mesh);
 }
 
 const Solution& reference(const std::string& mesh) {
   static std::map<std::string, Solution> solutions;
   Solution& solution = solutions[mesh];
-  if (solution.status != Status::ok)
-    solution = testing::solved_by("HYBRID", system_of(mesh, Blocks::contact_points));
+  if (solution.status != Status::ok) solution = testing::solved_by("HYBRID", system_of(mesh));
   return solution;
 }
 
@@ -52,7 +50,7 @@ class Answer : public ::testing::TestWithParam<MethodOnMesh> {
 
 TEST_P(Answer, HasTheReferencesForcesAndStresses) {
   const auto& [mesh, method] = GetParam();
-  const DualSystem& system = system_of(mesh, method.blocks);
+  const AirySystem& system = system_of(mesh);
   const Solution solution = run(method, system, testing::with_tolerance(1e-10));
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   const Solution& other = reference(mesh);
@@ -78,7 +76,7 @@ std::vector<Method> tooth_methods(bool small) {
   for (const std::string& preconditioner : preconditioner_names())
     all.push_back(select_methods("SYMMLQ:" + preconditioner + ",schur=sparse").front());
   std::erase_if(all, [&](const Method& method) {
-    return method.in_displacements || is_for_the_small_tooth(method) != small;
+    return method.in_displacements() || is_for_the_small_tooth(method) != small;
   });
   return all;
 }
@@ -113,7 +111,7 @@ class KernelsOnARack : public ::testing::TestWithParam<PreconditionerOnMesh> {
   }
 
  protected:
-  static const DualSystem& system() { return system_of(std::get<0>(GetParam())); }
+  static const AirySystem& system() { return system_of(std::get<0>(GetParam())); }
   static const std::string& preconditioner() { return std::get<1>(GetParam()); }
   // By a factor of the hybridized system, computed once.
   static const Eigen::MatrixXd& exact_D() {

@@ -15,7 +15,7 @@ namespace {
 using namespace testing;
 
 // With all parts of the load.
-DualSystem loaded_system(double friction = 0.2) {
+AirySystem loaded_system(double friction = 0.2) {
   Scene scene;
   scene.friction = friction;
   scene.body_force_N_per_mm3 = {3, -1};
@@ -24,7 +24,7 @@ DualSystem loaded_system(double friction = 0.2) {
 
 TEST(Blind, IsTheWholeSystemInEitherNumbering) {
   for (const double friction : {0.2, 0.0}) {
-    const DualSystem system = loaded_system(friction);
+    const AirySystem system = loaded_system(friction);
     const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
     const Eigen::MatrixXd M = saddle_matrix(system);
     for (const auto numbering :
@@ -46,7 +46,7 @@ TEST(Blind, IsTheWholeSystemInEitherNumbering) {
 
 TEST(Blind, EveryMultiplierComesAfterItsUnknownsInThePanelsToo) {
   for (const double friction : {0.2, 0.0}) {
-    const DualSystem system = loaded_system(friction);
+    const AirySystem system = loaded_system(friction);
     const BlindSystem blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
     EXPECT_TRUE(std::is_sorted(blind.position.begin(), blind.position.begin() + system.n()));
     for (const int panel_rows : {1, 3, 48, 64}) {
@@ -78,24 +78,24 @@ TEST(Blind, ASystemThatCannotBeSolvedIsABreakdown) {
   for (const char* method : {"BLIND", "BLIND:SCHUR", "BLIND:SKY"}) {
     SCOPED_TRACE(method);
     const auto solution_of = [&](auto spoil) {
-      DualSystem system = loaded_system();
+      AirySystem system = loaded_system();
       spoil(system);
       return solved_by(method, system);
     };
-    const Solution dependent = solution_of([](DualSystem& system) {
+    const Solution dependent = solution_of([](AirySystem& system) {
       SparseRows doubled = system.C_F;
       doubled.row(1) = doubled.row(0);
       system.C_F = doubled;
     });
     EXPECT_EQ(dependent.status, Status::breakdown) << dependent.message;
-    const Solution indefinite = solution_of([](DualSystem& s) { s.S.coeffRef(10, 10) = -1; });
+    const Solution indefinite = solution_of([](AirySystem& s) { s.S.coeffRef(10, 10) = -1; });
     EXPECT_EQ(indefinite.status, Status::breakdown);
     EXPECT_NE(indefinite.message.find("negative pivots instead of"), std::string::npos)
         << indefinite.message;
     for (const double poison : {std::nan(""), infinity}) {
-      EXPECT_EQ(solution_of([&](DualSystem& s) { s.S.valuePtr()[5] = poison; }).status,
+      EXPECT_EQ(solution_of([&](AirySystem& s) { s.S.valuePtr()[5] = poison; }).status,
                 Status::breakdown);
-      EXPECT_NE(solution_of([&](DualSystem& s) {
+      EXPECT_NE(solution_of([&](AirySystem& s) {
                   s.q = Eigen::VectorXd::Constant(s.n(), poison);
                 }).status,
                 Status::ok);
@@ -104,7 +104,7 @@ TEST(Blind, ASystemThatCannotBeSolvedIsABreakdown) {
 }
 
 TEST(SaddleOperator, IsTheWholeMatrix) {
-  const DualSystem system = loaded_system();
+  const AirySystem system = loaded_system();
   const SymmetricOperator A = saddle_operator(system);
   std::mt19937 generator(12);
   for (const int lanes : {1, most_lanes}) {
@@ -116,7 +116,7 @@ TEST(SaddleOperator, IsTheWholeMatrix) {
 }
 
 TEST(SaddlePreconditioner, BlocksAreTheInversesOfTheirDefinition) {
-  const DualSystem system = loaded_system();
+  const AirySystem system = loaded_system();
   const int n = system.n(), m = system.n_f() + system.n_c();
   const Eigen::MatrixXd A = saddle_matrix(system);
   const Eigen::MatrixXd C = A.bottomLeftCorner(m, n);
@@ -150,7 +150,7 @@ TEST(SaddlePreconditioner, BlocksAreTheInversesOfTheirDefinition) {
 }
 
 TEST(SaddlePreconditioner, ExactBlocksLeaveThreeEigenvaluesAndThreeIterations) {
-  const DualSystem system = loaded_system();
+  const AirySystem system = loaded_system();
   const Preconditioner exact = preconditioner_named("SKY")(system.S, {});
   const Preconditioner M = saddle_preconditioner(system, exact, SchurBlock::dense, most_lanes, 1);
   std::mt19937 generator(14);

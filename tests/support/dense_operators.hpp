@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "solvers/krylov/symmlq.hpp"
 #include "solvers/preconditioners/preconditioner.hpp"
 #include "tests/support/dense_algebra.hpp"
@@ -55,7 +55,7 @@ inline SparseColumns lower_of(const Eigen::MatrixXd& A) {
 }
 
 // [S Cᵀ; C 0] with C = [C_F; C_C].
-inline Eigen::MatrixXd saddle_matrix(const DualSystem& system) {
+inline Eigen::MatrixXd saddle_matrix(const AirySystem& system) {
   const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n + n_f + n_c, n + n_f + n_c);
   M.topLeftCorner(n, n) = Eigen::MatrixXd(system.S).selfadjointView<Eigen::Lower>();

@@ -22,8 +22,8 @@ inline LinearValue<Eigen::Vector2d> everywhere(const Eigen::Vector2d& value) {
 
 inline Solution solved_scene(const Scene& scene, const Mesh& mesh, const char* name) {
   const Method method = select_methods(name).front();
-  DualSystem system = assemble(posed(scene, mesh), method.blocks, method.degree);
-  return solve_load_case(method.solve, system, {});
+  const std::unique_ptr<ContactSystem> system = assemble(method, posed(scene, mesh));
+  return solve_load_case(method.solve, *system, {});
 }
 
 // The same line from every method.

@@ -38,7 +38,7 @@ inline std::string hybrid_of_every_degree() {
 inline std::vector<Method> kinds_of_methods() {
   std::vector<Method> kinds;
   for (const Method& method : methods())
-    if (!method.is_iterative() && !method.in_displacements) kinds.push_back(method);
+    if (!method.is_iterative() && !method.in_displacements()) kinds.push_back(method);
   const auto add = [&](const std::string& names) {
     for (const Method& method : select_methods(names)) kinds.push_back(method);
   };

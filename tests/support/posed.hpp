@@ -1,7 +1,7 @@
 // The problem of a scene on a mesh, and its system.
 #pragma once
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "assembly/problem/pose.hpp"
 #include "mesh/boundary_sides.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -12,8 +12,8 @@ inline std::shared_ptr<const Problem> posed(const Scene& scene, Mesh mesh = smal
   return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
 }
 
-inline DualSystem system_of(const Scene& scene = {}, Mesh mesh = small_tooth(6, 5)) {
-  return assemble(posed(scene, std::move(mesh)));
+inline AirySystem system_of(const Scene& scene = {}, Mesh mesh = small_tooth(6, 5)) {
+  return airy_system(posed(scene, std::move(mesh)));
 }
 
 // Calls visit(row, t, k) for every edge of the boundary: it is side k of triangle t.

@@ -9,7 +9,7 @@
 
 namespace airybench::testing {
 
-inline Solution solved_by(const std::string& method, const DualSystem& system,
+inline Solution solved_by(const std::string& method, const ContactSystem& system,
                           const RunControl& control = {}) {
   return run(select_methods(method).front(), system, control);
 }

@@ -14,15 +14,16 @@
 namespace airybench::testing {
 
 struct SolvedScene {
-  DualSystem system;
+  ContactSystem system;
   Solution solution;
 
   // allowed: besides ok.
   SolvedScene(const Scene& scene, const Mesh& mesh, const std::string& name,
               Status allowed = Status::ok) {
     const Method method = select_methods(name).front();
-    system = assemble(posed(scene, mesh), method.blocks, method.degree);
-    solution = solve_load_case(method.solve, system, {});
+    const std::unique_ptr<ContactSystem> assembled = assemble(method, posed(scene, mesh));
+    solution = solve_load_case(method.solve, *assembled, {});
+    system = *assembled;
     if (solution.status != allowed) {
       EXPECT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
     }

@@ -32,7 +32,7 @@ using testing::fitted;
 // The contact face of a solved problem: forces by HYBRID, displacements by both.
 struct Face {
   std::shared_ptr<const Problem> problem;
-  DualSystem system;
+  ContactSystem system;
   Eigen::VectorXd F_C, slip;  // per contact point: N; ū_t over the wall, mm
   DisplacementField u;        // by P2
   std::vector<EdgeTraction> edges;
@@ -42,7 +42,7 @@ struct Face {
     scene.mesh.refine = refined;
     problem = testing::posed(
         scene, read_msh(testing::test_data(std::string("validation/") + mesh + ".msh")));
-    system = assemble(problem, Blocks::contact_points);
+    system = contact_system(problem);
     RunControl control;
     control.contact.most_iterations = 50;  // then active sets
     Solution solution;
@@ -188,7 +188,7 @@ TEST(CattaneoMindlin, AStepwiseLoopDissipatesWhatTheClosedFormSays) {
     solve_load_steps(
         select_methods("HYBRID").front(),
         testing::posed(scene, read_msh(testing::test_data("validation/half_plane.msh"))), {},
-        [&](int step, const DualSystem& system, const Solution& answer) {
+        [&](int step, const ContactSystem& system, const Solution& answer) {
           ASSERT_EQ(answer.status, Status::ok) << answer.message;
           double Q = 0;  // of the body on the wall
           P = 0;

@@ -178,9 +178,8 @@ TEST(FreeBodies, WherePinsAreDoesNotMatter) {
     for (const char* name : {"HYBRID", "HYBRID:k=2", "P2", "BLIND:SCHUR:REFINED"}) {
       const Method method = select_methods(name).front();
       const auto solved = [&](const Problem& of) {
-        DualSystem system =
-            assemble(std::make_shared<const Problem>(of), method.blocks, method.degree);
-        return solve_load_case(method.solve, system, {});
+        return solve_load_case(method.solve, *assemble(method, std::make_shared<const Problem>(of)),
+                               {});
       };
       const Solution here = solved(*problem), there = solved(elsewhere);
       EXPECT_EQ(there.status, Status::ok) << name << ": " << there.message;
@@ -193,11 +192,11 @@ TEST(FreeBodies, WherePinsAreDoesNotMatter) {
 // The reference finds the motion by itself, and has no unbalanced force.
 TEST(FreeBodies, TheReferenceFindsTheMotion) {
   const auto problem = testing::posed(pressed_roller(0.3, {0.08, down}), roller_between_plates());
-  DualSystem system = assemble(problem, Blocks::contact_points);
+  ContactSystem system = contact_system(problem);
   const Reference reference = compute_reference(system);
   EXPECT_LT(reference.error_estimate, 1e-12);
-  set_load_case(system, std::make_shared<const Problem>(
-                            with_free_motion(*problem, reference.free_motion_mm)));
+  system.set_load_case(
+      std::make_shared<const Problem>(with_free_motion(*problem, reference.free_motion_mm)));
   Solution answer;
   answer.F_C = reference.F_C;
   answer.stress = reference.stress;
@@ -207,9 +206,8 @@ TEST(FreeBodies, TheReferenceFindsTheMotion) {
 TEST(FreeBodies, MethodsWithoutDRefuseThem) {
   for (const char* name : {"ALM:AUTO", "ALM:r=20,rho=20", "HYBRID:CG"}) {
     const Method method = select_methods(name).front();
-    const DualSystem system =
-        assemble(testing::posed(loaded_pile(0.3), pile()), method.blocks, method.degree);
-    const Solution solution = run(method.solve, system, {});
+    const Solution solution =
+        run(method, *assemble(method, testing::posed(loaded_pile(0.3), pile())), {});
     EXPECT_EQ(solution.status, Status::breakdown) << name;
     EXPECT_NE(solution.message.find("is held by contact alone"), std::string::npos)
         << name << ": " << solution.message;
@@ -329,10 +327,9 @@ TEST(FreeBodies, OnlyASolvedContactLawTellsThatNothingHolds) {
   const auto solved = [&](double along, const ContactOptions& contact) {
     scene.boundary["force:top"].traction_MPa = everywhere({along, -10});
     const Method hybrid = select_methods("HYBRID").front();
-    DualSystem system = assemble(testing::posed(scene, block), hybrid.blocks, hybrid.degree);
     RunControl control;
     control.contact = contact;
-    return solve_load_case(hybrid.solve, system, control);
+    return solve_load_case(hybrid.solve, *assemble(hybrid, testing::posed(scene, block)), control);
   };
   ContactOptions one_sweep;
   one_sweep.solver = ContactSolver::gauss_seidel;
@@ -349,8 +346,8 @@ TEST(FreeBodies, OnlyASolvedContactLawTellsThatNothingHolds) {
 
 std::string why_not(const Scene& scene, const Mesh& mesh, const char* name) {
   const Method method = select_methods(name).front();
-  DualSystem system = assemble(testing::posed(scene, mesh), method.blocks, method.degree);
-  const Solution solution = solve_load_case(method.solve, system, {});
+  const Solution solution =
+      solve_load_case(method.solve, *assemble(method, testing::posed(scene, mesh)), {});
   EXPECT_EQ(solution.status, Status::breakdown) << name;
   EXPECT_EQ(solution.free_motion_mm.size(), 0);
   return solution.message;
@@ -384,7 +381,7 @@ TEST(FreeBodies, APathIsWalkedInSteps) {
   for (const char* name : {"HYBRID", "3STEPD", "BLIND:SCHUR", "P2", "P3"}) {
     int steps = 0;
     solve_load_steps(select_methods(name).front(), problem, {},
-                     [&](int step, const DualSystem& system, const Solution& answer) {
+                     [&](int step, const ContactSystem& system, const Solution& answer) {
                        ASSERT_EQ(answer.status, Status::ok) << name << ": " << answer.message;
                        EXPECT_EQ(answer.free_motion_mm.size(), 3);
                        EXPECT_GE(dissipation_Nmm(system, answer), -1e-9);

@@ -206,7 +206,7 @@ TEST(HeldBodies, TheStepThatIsNotHeldIsNamed) {
     int steps = 0;
     const Solution last = solve_load_steps(
         select_methods(name).front(), testing::posed(scene, mesh), {},
-        [&](int, const DualSystem&, const Solution& answer) {
+        [&](int, const ContactSystem&, const Solution& answer) {
           EXPECT_EQ(answer.status, steps < 2 ? Status::ok : Status::breakdown) << answer.message;
           ++steps;
         });

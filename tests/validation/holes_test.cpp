@@ -110,12 +110,11 @@ Mesh ring(int around, BoundaryRole hole, BoundaryRole rim) {
 }
 
 struct Solved {
-  DualSystem system;
+  ContactSystem system;
   Solution hybrid, p2;
 
   explicit Solved(Problem problem)
-      : system(
-            assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points)),
+      : system(contact_system(std::make_shared<const Problem>(std::move(problem)))),
         hybrid(testing::solved_by("HYBRID", system)),
         p2(testing::solved_by("P2", system)) {
     EXPECT_EQ(hybrid.status, Status::ok) << hybrid.message;

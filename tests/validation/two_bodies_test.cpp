@@ -209,7 +209,7 @@ TEST(TwoBodies, APathWithSlipDissipatesAsAtAWall) {
     const auto work = [&](const Scene& of, const Mesh& mesh) {
       std::vector<double> works;
       solve_load_steps(select_methods(name).front(), testing::posed(of, mesh), {},
-                       [&](int, const DualSystem& system, const Solution& answer) {
+                       [&](int, const ContactSystem& system, const Solution& answer) {
                          EXPECT_EQ(answer.status, Status::ok) << answer.message;
                          works.push_back(dissipation_Nmm(system, answer));
                        });
@@ -239,7 +239,7 @@ TEST(TwoBodies, LoadStepsMayChangeTheClearance) {
   path.later_steps.resize(2);
   path.later_steps[0].contacts = {with_clearance(pair, -0.002)};
   path.later_steps[1].contacts = tight.contacts = {with_clearance(pair, -0.006)};
-  const auto resultant_N = [](const DualSystem& system, const Solution& own) {
+  const auto resultant_N = [](const ContactSystem& system, const Solution& own) {
     const Verification seen = own.displacement.cols() > 0 ? verify_displacement(system, own)
                                                           : verify(system, own, nullptr);
     return *seen.normal_resultant_N;
@@ -247,7 +247,7 @@ TEST(TwoBodies, LoadStepsMayChangeTheClearance) {
   for (const char* name : {"HYBRID", "HYBRID:k=2", "3STEPD", "P2"}) {
     std::vector<double> pressed_N;
     solve_load_steps(select_methods(name).front(), testing::posed(path, mesh), {},
-                     [&](int, const DualSystem& system, const Solution& own) {
+                     [&](int, const ContactSystem& system, const Solution& own) {
                        ASSERT_EQ(own.status, Status::ok) << name << ": " << own.message;
                        pressed_N.push_back(resultant_N(system, own));
                      });

@@ -30,7 +30,7 @@ struct RightAnswer {
 
 inline RightAnswer right_answer(const Scene& scene = {}) {
   const auto problem = testing::posed(scene, catalogue_mesh("Mesh0"));
-  const DualSystem system = assemble(problem);
+  const AirySystem system = airy_system(problem);
   const Solution found = run(select_methods("3STEPD").front(), system, {});
   RightAnswer right;
   right.F_C = found.F_C;

@@ -52,15 +52,16 @@ Mesh free_tooth(int nx, int ny) {
 }
 
 struct Solved {
-  DualSystem system;
+  ContactSystem system;
   Solution solution;
   std::optional<DisplacementField> w;
 
   Solved(Problem problem, const char* name) {
     const Method method = select_methods(name).front();
-    system = assemble(std::make_shared<const Problem>(std::move(problem)),
-                      method.degree > 1 ? Blocks::contact_points : Blocks::airy, method.degree);
-    solution = solve_load_steps(method.solve, system, {}, {});
+    const std::unique_ptr<ContactSystem> assembled =
+        assemble(method, std::make_shared<const Problem>(std::move(problem)));
+    solution = solve_load_steps(method.solve, *assembled, {}, {});
+    system = *assembled;
     EXPECT_EQ(solution.status, Status::ok) << solution.message;
     if (solution.displacement.cols() > 0)
       w = solution.displacement;

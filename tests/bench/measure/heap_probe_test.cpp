@@ -95,8 +95,9 @@ TEST(Allocations, NoneInsideAContactSweep) {
   }
 }
 
-const DualSystem& tooth() {
-  static const DualSystem system = assemble(testing::posed(Scene{}, testing::small_tooth(16, 12)));
+const AirySystem& tooth() {
+  static const AirySystem system =
+      airy_system(testing::posed(Scene{}, testing::small_tooth(16, 12)));
   return system;
 }
 
@@ -110,7 +111,7 @@ class PreconditionerAllocations : public ::testing::TestWithParam<std::string> {
     std::function<KrylovSummary(const RightHandSides&, const KrylovOptions&)> solve;
   };
   static std::vector<Kernel> kernels() {
-    const DualSystem& system = tooth();
+    const AirySystem& system = tooth();
     const Preconditioner S_star = preconditioner_named(GetParam())(system.S, {});
     std::vector<Kernel> all;
     all.push_back({"CG", system.n(), S_star, [&, S_star](const auto& sides, const auto& options) {
@@ -265,7 +266,7 @@ TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
 }
 
 TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {
-  const DualSystem rack = assemble(testing::posed(Scene{}, testing::catalogue_mesh("Mesh4")));
+  const AirySystem rack = airy_system(testing::posed(Scene{}, testing::catalogue_mesh("Mesh4")));
   const auto peak = [&](const char* name) {
     heap::reset_peak();
     const std::int64_t before = heap::live_bytes();
@@ -282,7 +283,7 @@ TEST(Assembly, Mesh7PeaksAtMostAtThreeTimesItsBlocks) {
   const auto problem = testing::posed(Scene{}, testing::catalogue_mesh("Mesh7"));
   heap::reset_peak();
   const std::int64_t before = heap::live_bytes();
-  const DualSystem system = assemble(problem);
+  const AirySystem system = airy_system(problem);
   const std::int64_t blocks = heap::live_bytes() - before;
   EXPECT_LE(heap::peak_bytes() - before, 3 * blocks);
   EXPECT_NEAR(static_cast<double>(blocks), static_cast<double>(system.bytes()),

@@ -71,12 +71,19 @@ std::vector<LeanScene> all_scenes() {
 }
 
 struct Measured {
-  DualSystem system;
+  std::unique_ptr<ContactSystem> system;
   Solution solution;
   std::vector<StageDecision> stages;
   std::int64_t blocks_bytes = 0;  // live after assembly
   std::int64_t peak_bytes = 0;    // highest during the solve, with the blocks
   std::int64_t allocations = 0;   // of the solve
+
+  // Without blocks where the method needs none.
+  const AirySystem& airy() const {
+    static const AirySystem none;
+    const auto* const blocks = dynamic_cast<const AirySystem*>(system.get());
+    return blocks != nullptr ? *blocks : none;
+  }
 };
 
 // The allocator rounds every block up to a multiple of 16 bytes; as many as a few dozen blocks.
@@ -94,11 +101,11 @@ Measured measure_now(const LeanScene& scene, const Method& method) {
   Measured m;
   m.stages = decide_stages(problem, method, /*fields_asked=*/false);
   const std::int64_t before = heap::live_bytes();
-  m.system = assemble(problem, method.blocks);
+  m.system = assemble(method, problem);
   m.blocks_bytes = heap::live_bytes() - before;
   heap::reset_peak();
   const std::int64_t calls = heap::allocations();
-  m.solution = run(method, m.system, control());
+  m.solution = run(method, *m.system, control());
   m.peak_bytes = heap::peak_bytes() - before;
   m.allocations = heap::allocations() - calls;
   EXPECT_EQ(m.solution.status, Status::ok) << scene.name << ": " << m.solution.message;
@@ -111,7 +118,7 @@ const Measured& measure(const LeanScene& scene, const Method& method) {
   const bool first = !all.contains(method.name);
   auto& scenes = all[method.name];
   if (first) {  // what libraries keep from their first call is no part of the others
-    EXPECT_EQ(run(method, assemble(full.posed(), method.blocks), control()).status, Status::ok);
+    EXPECT_EQ(run(method, *assemble(method, full.posed()), control()).status, Status::ok);
   }
   if (!scenes.contains(scene.name)) scenes.emplace(scene.name, measure_now(scene, method));
   return scenes.at(scene.name);
@@ -142,7 +149,8 @@ TEST_P(LeanScenes, TimesAndBlocksAreThoseOfTheStagesDecided) {
       const std::string name(name_of(stage));
       EXPECT_EQ(m.solution.times[stage].has_value(), runs[name]) << scene.name << ": " << name;
     }
-    const DualSystem& s = m.system;
+    const AirySystem& s = m.airy();
+    const ContactPoints& contact = m.system->contact;
     for (const auto& [stage, is_there] :
          {std::pair("assemble S", s.S.nonZeros() > 0),
           {"assemble C_F", s.C_F.nonZeros() > 0},
@@ -150,11 +158,11 @@ TEST_P(LeanScenes, TimesAndBlocksAreThoseOfTheStagesDecided) {
           {"assemble q", s.q.size() > 0},
           {"assemble F", s.F.size() > 0},
           {"assemble F0", s.F0.size() > 0},
-          {"assemble gap", s.contact.gap.size() > 0},
-          {"contact: tangential law", s.contact.count > 0 && s.contact.components == 2}})
+          {"assemble gap", contact.gap.size() > 0},
+          {"contact: tangential law", contact.count > 0 && contact.components == 2}})
       EXPECT_EQ(is_there, runs[stage]) << scene.name << ": " << stage;
-    if (!GetParam().in_displacements) {  // which has its control points
-      EXPECT_EQ(m.solution.F_C.size(), s.contact.size()) << scene.name;
+    if (!GetParam().in_displacements()) {  // which has its control points
+      EXPECT_EQ(m.solution.F_C.size(), contact.size()) << scene.name;
     }
     const bool sweeps = runs["contact"] && !m.solution.uzawa_iterations;
     EXPECT_EQ(m.solution.contact_iterations.has_value(), sweeps) << scene.name;
@@ -175,13 +183,15 @@ Eigen::Index closed_components(const Solution& solution) {
 
 TEST_P(LeanScenes, TakeNoMoreHeapAndNoMoreAllocations) {
   const Measured& with = measure(full, GetParam());
-  const auto squared = [](const DualSystem& s) { return std::int64_t{s.n_f()} * s.n_f(); };
+  const auto squared = [](const Measured& m) {
+    return std::int64_t{m.airy().n_f()} * m.airy().n_f();
+  };
   const bool three_step = GetParam().name.starts_with("3STEP");
   for (const LeanScene& scene : lean_scenes) {
     const Measured& lean = measure(scene, GetParam());
     // Without friction the tangential rows move to K_FF: its sum, copy and factor are larger.
     const std::int64_t moved =
-        three_step ? 8 * std::max<std::int64_t>(squared(lean.system) - squared(with.system), 0) : 0;
+        three_step ? 8 * std::max<std::int64_t>(squared(lean) - squared(with), 0) : 0;
     EXPECT_LE(lean.blocks_bytes, with.blocks_bytes + rounding) << scene.name;
     EXPECT_LE(lean.peak_bytes, with.peak_bytes + 3 * moved + of_mumps(GetParam(), with) + rounding)
         << scene.name;
@@ -189,7 +199,7 @@ TEST_P(LeanScenes, TakeNoMoreHeapAndNoMoreAllocations) {
     // allocates, and the more the more points are closed: where other forces need more of them,
     // nothing is said, nor where CHOLMOD orders a smaller matrix by itself. One temporary more is
     // let pass.
-    const bool asks_otherwise = GetParam().in_displacements ||
+    const bool asks_otherwise = GetParam().in_displacements() ||
                                 GetParam().name.ends_with(":REFINED") ||
                                 GetParam().name == "HYBRID:CHOLMOD";
     if (!asks_otherwise && lean.solution.contact_iterations <= with.solution.contact_iterations &&
@@ -209,7 +219,8 @@ TEST_P(LeanScenes, SaveAtLeastTheBlocksThatAreNotBuilt) {
     return with.peak_bytes - measure(scene, method).peak_bytes;
   };
   const auto numbers = [](std::int64_t count) { return 8 * count - rounding; };
-  const std::int64_t n = with.system.n(), n_c = with.system.contact.size(), n_f = with.system.n_f();
+  const AirySystem& airy = with.airy();
+  const std::int64_t n = airy.n(), n_c = with.system->contact.size(), n_f = airy.n_f();
   const bool three_step = method.name.starts_with("3STEP");
   const bool keeps_X = three_step && method.name != "3STEPD:FILE" && method.name != "3STEPD:LEAN";
   const bool condenses = !method.name.starts_with("ALM");
@@ -224,8 +235,8 @@ TEST_P(LeanScenes, SaveAtLeastTheBlocksThatAreNotBuilt) {
     EXPECT_GE(saved(no_contact), numbers(D + coupling + (keeps_X ? n * n_c : 0)));
     EXPECT_GE(saved(no_force), numbers(n_f * n_f + coupling + (keeps_X ? n * n_f : 0)));
   }
-  EXPECT_GE(saved(no_body_force), numbers(with.system.F.size() + with.system.F0.size()));
-  EXPECT_GE(saved(no_load), numbers(with.system.q.size()));
+  EXPECT_GE(saved(no_body_force), numbers(airy.F.size() + airy.F0.size()));
+  EXPECT_GE(saved(no_load), numbers(airy.q.size()));
 }
 
 TEST_P(LeanScenes, IterateNoMoreAndWithoutConstraintsOnce) {
@@ -259,7 +270,7 @@ struct CountedSolve {
 
 TEST(CountOfSolves, ThreeStepSolvesForMultipliersAndALoadOnly) {
   for (const LeanScene& scene : all_scenes()) {
-    const DualSystem system = assemble(scene.posed());
+    const AirySystem system = airy_system(scene.posed());
     const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
     for (const auto where : {KeepX::Where::memory, KeepX::Where::nowhere}) {
       CountedSolve solve{factor};
@@ -278,7 +289,7 @@ TEST(CountOfSolves, ThreeStepSolvesForMultipliersAndALoadOnly) {
 
 TEST(CountOfSolves, BlindCondensationSolvesForContactForcesAndALoadOnly) {
   for (const LeanScene& scene : all_scenes()) {
-    const DualSystem system = assemble(scene.posed());
+    const AirySystem system = airy_system(scene.posed());
     const BlindSystem blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
     const SkylineFactor factor = factor_ldlt(analyse_skyline(blind.lower), blind.lower);
     CountedSolve solve{factor};

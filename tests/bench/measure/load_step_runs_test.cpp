@@ -104,7 +104,8 @@ TEST(LoadStepRuns, APathMayBeUnloadedAtItsEndAndWithin) {
 TEST(LoadStepRuns, AWrongSlipIsSeen) {
   for (Method method : select_methods("HYBRID,HYBRID:k=2,P2,3STEPD:CHOLMOD,ALM:AUTO")) {
     int solves = 0;
-    method.solve = [&, right = method.solve](const DualSystem& system, const RunControl& control) {
+    method.solve = [&, right = method.solve](const ContactSystem& system,
+                                             const RunControl& control) {
       RunControl alone = control;
       alone.keep_body = false;
       Solution solution = right(system, alone);
@@ -114,7 +115,7 @@ TEST(LoadStepRuns, AWrongSlipIsSeen) {
     Record record = examined(sheared_and_back(), method);
     summarise(record);
     EXPECT_EQ(record.status, Status::inaccurate) << method.name;
-    EXPECT_EQ(record.outcome, method.in_displacements ? "unverified" : "wrong_success");
+    EXPECT_EQ(record.outcome, method.in_displacements() ? "unverified" : "wrong_success");
   }
 }
 
@@ -246,7 +247,7 @@ TEST(LoadStepRuns, WithFrictionTheErrorOfAStepIsOfItsOwnSlip) {
 // HYBRID, on its own in every step, with this done to the second answer.
 Method disturbed(const std::function<void(Solution&)>& disturb) {
   Method method = select_methods("HYBRID").front();
-  method.solve = [=, solve = method.solve, count = 0](const DualSystem& system,
+  method.solve = [=, solve = method.solve, count = 0](const ContactSystem& system,
                                                       RunControl control) mutable {
     control.keep_body = false;
     Solution solution = solve(system, control);

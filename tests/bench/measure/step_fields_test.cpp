@@ -173,10 +173,10 @@ TEST(StepFields, OfALongPathAHundredStepsHaveTheWholeBody) {
 }
 
 struct Solved {
-  DualSystem system;
+  ContactSystem system;
   Solution solution;
 
-  explicit Solved(int steps) : system(assemble(path_of(steps))) {
+  explicit Solved(int steps) : system(contact_system(path_of(steps))) {
     solution = run(select_methods("HYBRID").front(), system, {});
   }
   std::string write(StepFields& files, int step) const {

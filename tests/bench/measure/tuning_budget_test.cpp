@@ -57,7 +57,7 @@ TEST(TuningBudget, AGridThatHasNothingYetIsATimeout) {
 // What the search found before its time was over is kept.
 TEST(TuningBudget, AGridThatWasCutKeepsItsBest) {
   Method method = select_methods("ALM:r=20,rho=20").front();
-  method.tune = [solve = method.solve](const DualSystem&, const RunControl&) {
+  method.tune = [solve = method.solve](const ContactSystem&, const RunControl&) {
     return Tuning{"r=20, rho=20", solve, {{20, 20, 100, "converged"}, {40, 20, 0, "not tried"}}};
   };
   const Record record = examined(method, plenty_s);

@@ -34,9 +34,8 @@ TEST(StabilityScenes, AllCanBeReadAndPosed) {
 }
 
 Reference reference_of(const std::string& scene) {
-  return compute_reference(
-      assemble(testing::posed(read_scene(folder / (scene + ".json")), catalogue_mesh("Mesh0")),
-               Blocks::contact_points));
+  return compute_reference(contact_system(
+      testing::posed(read_scene(folder / (scene + ".json")), catalogue_mesh("Mesh0"))));
 }
 
 TEST(StabilityScenes, TheSameStateInOtherUnitsGivesTheSameForcesTimesAFactor) {

@@ -91,7 +91,7 @@ TEST(Study, ACaseRunsWithItsNumberOfThreads) {
   options.run.cases.threads = 4;
   int threads = 0;
   Method seen = method("HYBRID");
-  seen.solve = [&threads](const DualSystem&, const RunControl& control) {
+  seen.solve = [&threads](const ContactSystem&, const RunControl& control) {
     threads = control.threads;
     return Solution();
   };

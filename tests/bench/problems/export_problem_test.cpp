@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 #include "assembly/problem/scene.hpp"
 #include "bench/problems/problem_arrays.hpp"
 #include "mesh/msh_format.hpp"
@@ -129,7 +129,7 @@ TEST_F(ExportProblemCommand, TheSameProblemIsTheSameBytes) {
 TEST(KnownRows, AreAsManyAsTheRowsOfTheSystem) {
   for (const double friction : {0.0, 0.3}) {
     const auto problem = testing::posed({.friction = friction}, testing::catalogue_mesh("Mesh0"));
-    const DualSystem system = assemble(problem);
+    const AirySystem system = airy_system(problem);
     EXPECT_EQ(known_rows(*problem, Known::force).size(), static_cast<std::size_t>(system.n_f()));
     EXPECT_EQ(known_rows(*problem, Known::contact_law).size(),
               static_cast<std::size_t>(system.n_c()));

@@ -127,8 +127,7 @@ TEST_F(FclibReader, ReadsAllStorages) {
 TEST_F(FclibReader, OurOwnExportHasTheForcesOfTheBody) {
   for (const double friction : {0.3, 0.0}) {
     const auto problem = testing::posed({.friction = friction}, testing::catalogue_mesh("Mesh0"));
-    const Solution of_body =
-        run(select_methods("HYBRID").front(), assemble(problem, Blocks::contact_points), {});
+    const Solution of_body = run(select_methods("HYBRID").front(), contact_system(problem), {});
     PosedScene posed;
     posed.problem = problem;
     const ProblemFiles exported = problem_files(posed, "fclib");

@@ -33,7 +33,8 @@ using Harm = std::function<void(Solution&)>;  // done to HYBRID's answer
 Method harmful(const std::string& name, Harm harm) {
   Method method = select_methods("HYBRID").front();
   method.name = name;
-  method.solve = [solve = method.solve, harm](const DualSystem& system, const RunControl& control) {
+  method.solve = [solve = method.solve, harm](const ContactSystem& system,
+                                              const RunControl& control) {
     Solution solution = solve(system, control);
     const StageTimer timer(solution.times, Stage::factor);
     harm(solution);
@@ -262,7 +263,7 @@ TEST_F(IsolationAtSize, AMemoryLimitIsARecord) {
 TEST_F(IsolationAtSize, ATimeLimitIsARecord) {
   options_.limits.timeout_s = 3;
   Method patient = method_;
-  patient.solve = [this](const DualSystem& system, const RunControl& control) {
+  patient.solve = [this](const ContactSystem& system, const RunControl& control) {
     Solution solution = method_.solve(system, control);
     while (system.problem == large_.body() && solution.status == Status::ok)
       solution = method_.solve(system, control);
@@ -282,7 +283,7 @@ struct AtStage : StageObserver {
 
 TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
   Method late = method_;
-  late.solve = [this](const DualSystem& system, const RunControl& control) {
+  late.solve = [this](const ContactSystem& system, const RunControl& control) {
     RunControl own = control;
     AtStage ender;
     ender.at_begin = [&](Stage stage) {
@@ -299,7 +300,7 @@ TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
 TEST_F(IsolationAtSize, AKillWithinAStageIsARecord) {
   for (const Stage stage : {Stage::precondition, Stage::contact, Stage::check}) {
     Method killed = method_;
-    killed.solve = [this, stage](const DualSystem& system, const RunControl& control) {
+    killed.solve = [this, stage](const ContactSystem& system, const RunControl& control) {
       AtStage killer;
       killer.at_end = [&](Stage of) {
         if (of == stage) die_of(SIGKILL);

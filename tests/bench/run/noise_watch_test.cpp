@@ -228,7 +228,8 @@ TEST_F(RetryNoisy, TimesALongCaseOnceMore) {
 TEST_F(RetryNoisy, RecordsAFailureInALaterAttempt) {
   Method method = select_methods("HYBRID").front();
   auto runs = std::make_shared<int>(0);
-  method.solve = [solve = method.solve, runs](const DualSystem& system, const RunControl& control) {
+  method.solve = [solve = method.solve, runs](const ContactSystem& system,
+                                              const RunControl& control) {
     if (++*runs > 4) throw std::runtime_error("no such luck");  // detail, memory, two timed
     return solve(system, control);
   };

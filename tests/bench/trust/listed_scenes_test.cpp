@@ -79,7 +79,7 @@ TEST(ListedScenes, ATinyStressUnderALargeMotionHasItsDigits) {
   });
   const double energy = *examined(problem, select_methods("HYBRID").front()).strain_energy_Nmm;
   for (const Method& method : of_each_kind()) {
-    if (method.in_displacements) continue;
+    if (method.in_displacements()) continue;
     const Record record = examined(problem, method);
     EXPECT_EQ(record.outcome, "ok") << method.name << ": " << record.status_reason;
     EXPECT_NEAR(*record.strain_energy_Nmm / energy, 1, 2e-6) << method.name;
@@ -162,7 +162,7 @@ TEST(ListedScenes, ABodyWithoutStressIsUnstressedAndNobodyIsAccused) {
     const Record record = examined(problem, method);
     EXPECT_EQ(record.outcome, "unstressed") << method.name << ": " << record.status_reason;
     EXPECT_EQ(record.strain_energy_Nmm, 0);
-    if (!method.in_displacements) {
+    if (!method.in_displacements()) {
       EXPECT_TRUE(testing::contains(record.status_reason,
                                     "least gap, before anything deforms, is 0.01 mm"));
     }
@@ -182,14 +182,13 @@ std::shared_ptr<const Problem> moved_along(double pressed, int steps) {
 }
 
 TEST(ListedScenes, AnotherSolutionIsNotWrong) {
-  const Eigen::VectorXd start =
-      compute_reference(assemble(moved_along(0.002, 1), Blocks::contact_points)).F_C;
+  const Eigen::VectorXd start = compute_reference(contact_system(moved_along(0.002, 1))).F_C;
   for (const int steps : {1, 2})
     for (const double factor : {1., 1.01}) {
       Method finds_the_other = select_methods("HYBRID").front();
-      finds_the_other.solve = [&](const DualSystem& system, const RunControl&) {
-        Solution other = answer_of(compute_reference(
-            assemble(system.problem, Blocks::contact_points), start, StartIs::solution));
+      finds_the_other.solve = [&](const ContactSystem& system, const RunControl&) {
+        Solution other =
+            answer_of(compute_reference(contact_system(system.problem), start, StartIs::solution));
         other.F_C *= factor;
         return other;
       };

@@ -71,7 +71,7 @@ void narrow(const Scene& scene, const Mesh& mesh, std::vector<Bounds>& of_step, 
             int& judged) {
   solve_load_steps(
       select_methods("HYBRID").front(), testing::posed(scene, mesh), {},
-      [&](int step, const DualSystem& system, const Solution& hybrid) {
+      [&](int step, const ContactSystem& system, const Solution& hybrid) {
         ASSERT_EQ(hybrid.status, Status::ok) << hybrid.message;
         const ConstitutiveError error = constitutive_error(
             system, hybrid.stress, hybrid.F_C,

@@ -28,8 +28,8 @@ TEST(AnswerHash, IsTheSameForMethodsAndDiffersBetweenProblems) {
   std::set<std::string> hashes;
   for (const char* name : {"Mesh0", "Mesh1"})
     for (const double friction : {0.2, 0.1}) {
-      const DualSystem system =
-          assemble(testing::posed({.friction = friction}, testing::catalogue_mesh(name)));
+      const AirySystem system =
+          airy_system(testing::posed({.friction = friction}, testing::catalogue_mesh(name)));
       std::set<std::string> of_methods;
       for (const Method& method : select_methods("3STEPD,BLIND,HYBRID")) {
         const Solution solution = run(method, system, {});

@@ -106,7 +106,7 @@ TEST(ContactViolations, TensionAndFrictionBeyondItsBound) {
 
 // A contact force too much of 3 N.
 TEST(ContactViolations, UnbalancedForce) {
-  const DualSystem system = assemble(testing::posed({}), Blocks::contact_points);
+  const ContactSystem system = contact_system(testing::posed({}));
   for (const char* name : {"HYBRID", "P2"}) {
     SCOPED_TRACE(name);
     const bool in_displacements = std::string(name) == "P2";
@@ -127,7 +127,7 @@ TEST(ContactViolations, UnbalancedForce) {
 class OfPrograms : public ::testing::Test {
  protected:
   OfPrograms() { answer_.program = ProgramRun{}; }
-  const DualSystem system_ = assemble(testing::posed({}), Blocks::contact_points);
+  const ContactSystem system_ = contact_system(testing::posed({}));
   Solution answer_ = testing::answered_by("P2", system_);
 };
 

@@ -246,7 +246,7 @@ TEST(DisplacementVerifier, LeavesAProgramTheDirectionOfTheForceInACornerOfTwoWal
     scene.boundary[group].pressure_MPa.emplace().values.fill(pressure_MPa);
   const auto problem = std::make_shared<const Problem>(
       pose(scene, read_msh(testing::source_folder() / "bench/scenes/check/block.msh")));
-  const DualSystem system = assemble(problem, Blocks::contact_points);
+  const ContactSystem system = contact_system(problem);
   const auto vertices = static_cast<Eigen::Index>(problem->mesh.vertices.size());
   const auto unbalanced = [&](const Eigen::Matrix2d& gradient, bool is_of_program) {
     Solution solution;

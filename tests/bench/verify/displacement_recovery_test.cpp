@@ -102,7 +102,7 @@ TEST(RecoveredDisplacement, OfEveryDegreeItIsTheExactOne) {
             for (Eigen::Vector2d& x : mesh.vertices) x.y() *= scale;
             const auto problem = std::make_shared<const Problem>(
                 make_problem(mesh, {compliance({2000, nu}, Plane::strain)}, {}, 0));
-            const DualSystem system = assemble(problem, Blocks::contact_points, k);
+            const ContactSystem system = contact_system(problem, k);
             const DisplacementField exact = testing::interpolated(
                 *problem, k + 1, testing::Polynomial(k + 1, 10, 5, /*held=*/true));
             Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(2 * (k + 1), problem->edges.count());

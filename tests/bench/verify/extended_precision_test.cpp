@@ -67,9 +67,9 @@ QuadVector solve_law(const QuadMatrix& D, const QuadVector& offset, const Contac
   return F;
 }
 
-QuadSolution solve_in_quad(const DualSystem& airy, const Eigen::VectorXd& like) {
-  const ContactPoints& contact = airy.contact;
-  const auto system = assemble_hybridized<Quad>(*airy.problem, contact);
+QuadSolution solve_in_quad(const ContactSystem& given, const Eigen::VectorXd& like) {
+  const ContactPoints& contact = given.contact;
+  const auto system = assemble_hybridized<Quad>(*given.problem, contact);
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Quad>, Eigen::Lower> factor(
       lower_triangle(system.K));
   EXPECT_EQ(factor.info(), Eigen::Success);
@@ -83,7 +83,7 @@ QuadSolution solve_in_quad(const DualSystem& airy, const Eigen::VectorXd& like) 
   QuadVector offset = solution.G;
   if (contact.gap.size() > 0) offset += contact.gap.cast<Quad>();
   solution.F_C = solve_law(solution.D, offset, contact, contact_states(contact, like), like);
-  solution.stress = hybridized_stress(*airy.problem, system, QuadVector(x + X * solution.F_C));
+  solution.stress = hybridized_stress(*given.problem, system, QuadVector(x + X * solution.F_C));
   return solution;
 }
 
@@ -121,7 +121,7 @@ TEST_P(ExtendedPrecision, ErrorsOfTheReferenceAndOfHybrid) {
     if (GetParam() > 0 && c.scene.friction == 0) continue;  // 128 bits are computed in software
     SCOPED_TRACE(c.name);
     const auto problem = testing::posed(c.scene, mesh_);
-    const DualSystem system = assemble(problem, Blocks::contact_points);
+    const ContactSystem system = contact_system(problem);
     const Reference reference = compute_reference(system);
     const QuadSolution exact = solve_in_quad(system, reference.F_C);
 
@@ -150,7 +150,7 @@ TEST_P(ExtendedPrecision, ErrorsOfTheReferenceAndOfHybrid) {
 
 TEST_P(ExtendedPrecision, HybridStressesAreTheAiryFunctionsElementByElement) {
   const auto problem = testing::posed(Scene{}, mesh_);
-  const DualSystem system = assemble(problem);
+  const AirySystem system = airy_system(problem);
   const Solution hybrid = run(select_methods("HYBRID").front(), system, {});
   const Solution airy = run(select_methods("3STEPD:CHOLMOD").front(), system, {});
   ASSERT_EQ(hybrid.status, Status::ok);
@@ -167,8 +167,7 @@ TEST(ExtendedPrecision, ErrorOfTheReferenceOnBodiesWithAHole) {
                                       BoundaryRole::contact);
   for (const Mesh& mesh : {testing::small_plate(1), pin}) {
     SCOPED_TRACE(mesh.name);
-    const DualSystem system =
-        assemble(testing::posed({.crown_radius_mm = {}}, mesh), Blocks::contact_points);
+    const ContactSystem system = contact_system(testing::posed({.crown_radius_mm = {}}, mesh));
     const Reference reference = compute_reference(system);
     const Errors off = errors(*system.problem, solve_in_quad(system, reference.F_C), reference.F_C,
                               reference.stress);

@@ -40,12 +40,12 @@ Oracle finest(const std::string& wanted) {
 
 Verification solved(const std::string& mesh, const Scene& scene, const char* name) {
   const Method method = select_methods(name).front();
-  const DualSystem system =
-      assemble(testing::posed(scene, testing::catalogue_mesh(mesh)), method.blocks);
-  const Solution solution = run(method, system, {});
+  const std::unique_ptr<ContactSystem> system =
+      assemble(method, testing::posed(scene, testing::catalogue_mesh(mesh)));
+  const Solution solution = run(method, *system, {});
   EXPECT_EQ(solution.status, Status::ok) << solution.message;
-  return method.in_displacements ? verify_displacement(system, solution)
-                                 : verify(system, solution, nullptr);
+  return method.in_displacements() ? verify_displacement(*system, solution)
+                                   : verify(*system, solution, nullptr);
 }
 
 double relative(double value, double oracle) { return std::abs(value / oracle - 1); }

@@ -40,7 +40,7 @@ Mesh renumbered(const Mesh& mesh, unsigned seed) {
 }
 
 Reference reference_of(const Mesh& mesh) {
-  return compute_reference(assemble(testing::posed(Scene{}, mesh), Blocks::contact_points));
+  return compute_reference(contact_system(testing::posed(Scene{}, mesh)));
 }
 
 TEST(Reference, DoesNotDependOnTheNumbering) {
@@ -69,14 +69,14 @@ TEST(Reference, SaysHowMuchAFlattenedMeshCosts) {
 TEST(Reference, WithoutAFiniteSolutionThereIsNone) {
   Problem problem = pose(Scene{}, testing::catalogue_mesh("Mesh0"));
   problem.loads.gap_mm = [](const Eigen::Vector2d&, int) { return std::nan(""); };
-  EXPECT_THROW(compute_reference(assemble(std::make_shared<const Problem>(std::move(problem)),
-                                          Blocks::contact_points)),
-               Breakdown);
+  EXPECT_THROW(
+      compute_reference(contact_system(std::make_shared<const Problem>(std::move(problem)))),
+      Breakdown);
 }
 
 // Refined answers against the reference, which shares nothing with them but the mesh.
 struct Posed {
-  DualSystem system;
+  AirySystem system;
   Reference reference;
   // Unrefined, what rounding leaves is near the target, on either side by the processor's kernels.
   double error_of(const std::string& method, bool may_be_inaccurate = false) const {
@@ -92,7 +92,7 @@ struct Posed {
 };
 
 Posed posed(const char* mesh, const Scene& scene) {
-  DualSystem system = assemble(testing::posed(scene, testing::catalogue_mesh(mesh)));
+  AirySystem system = airy_system(testing::posed(scene, testing::catalogue_mesh(mesh)));
   Reference reference = compute_reference(system);
   return {std::move(system), std::move(reference)};
 }

@@ -12,21 +12,20 @@
 
 namespace airybench::testing {
 
-inline Solution answered_by(const std::string& method, const DualSystem& system) {
+inline Solution answered_by(const std::string& method, const ContactSystem& system) {
   Solution solution = run(select_methods(method).front(), system, {});
   EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
   return solution;
 }
 
 struct Solved {
-  DualSystem system;
+  ContactSystem system;
   Solution hybrid;
   DisplacementField w;  // recovered
 
   // degree: of the stresses.
   explicit Solved(Problem problem, int degree = 1)
-      : system(assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points,
-                        degree)),
+      : system(contact_system(std::make_shared<const Problem>(std::move(problem)), degree)),
         hybrid(answered_by(hybrid_of_degree(degree), system)),
         w(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)) {}
   Solved(const Scene& scene, Mesh mesh, int degree = 1)

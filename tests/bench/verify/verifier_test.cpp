@@ -15,7 +15,7 @@ class Verifier : public ::testing::Test {
  protected:
   void pose_scene(const Scene& scene) {
     problem_ = testing::posed(scene);
-    system_ = assemble(problem_, Blocks::contact_points);
+    system_ = contact_system(problem_);
     reference_ = compute_reference(system_);
     solution_ = run(select_methods("HYBRID").front(), system_, {});
     ASSERT_EQ(solution_.status, Status::ok);
@@ -23,7 +23,7 @@ class Verifier : public ::testing::Test {
   Verification verified() const { return verify(system_, solution_, &reference_); }
 
   std::shared_ptr<const Problem> problem_;
-  DualSystem system_;
+  ContactSystem system_;
   Reference reference_;
   Solution solution_;
 };
@@ -64,8 +64,7 @@ TEST_F(Verifier, JudgesStressesOfEveryDegree) {
   for (const int k : {1, 2, 3, 4}) {
     Scene scene{.friction = 0.2};
     scene.body_force_N_per_mm3 = {0.4, -0.2};
-    system_ =
-        assemble(testing::posed(scene, testing::small_tooth(4, 3)), Blocks::contact_points, k);
+    system_ = contact_system(testing::posed(scene, testing::small_tooth(4, 3)), k);
     reference_ = compute_reference(system_);
     const Solution right = run(select_methods(hybrid_of_degree(k)).front(), system_, {});
     ASSERT_EQ(right.status, Status::ok) << right.message;
@@ -164,8 +163,7 @@ TEST_F(Verifier, WithoutAReferenceErrorsAreUnknownNotZero) {
 class WithoutAReference : public ::testing::Test {
  protected:
   Solution solve(const char* method, double friction) {
-    system_ = assemble(testing::posed({.friction = friction}, testing::small_tooth(8, 6)),
-                       Blocks::contact_points);
+    system_ = contact_system(testing::posed({.friction = friction}, testing::small_tooth(8, 6)));
     RunControl control;
     control.tolerance = 1e-10;
     return run(select_methods(method).front(), system_, control);
@@ -173,7 +171,7 @@ class WithoutAReference : public ::testing::Test {
   double worst(const Solution& solution) const {
     return worst_measure(verify(system_, solution, nullptr)).value;
   }
-  DualSystem system_;
+  ContactSystem system_;
 };
 
 TEST_F(WithoutAReference, FindsNothingWrongWithARightAnswer) {
@@ -204,8 +202,7 @@ TEST_F(WithoutAReference, SeesEveryPartOfAnAnswerThatIsWrong) {
             1e-5);
   EXPECT_GT(after([](Solution& s) { s.edge_moments *= 1.001; }), 1e-5);
   // In balance and compatible, through the wall.
-  system_ = assemble(testing::posed({.clearance_mm = 1}, testing::small_tooth(8, 6)),
-                     Blocks::contact_points);
+  system_ = contact_system(testing::posed({.clearance_mm = 1}, testing::small_tooth(8, 6)));
   EXPECT_GT(worst(right), 1e-5);
 }
 

@@ -7,7 +7,7 @@
 
 namespace airybench {
 
-static Solution solve_three_step_simplicial(const DualSystem& system, const RunControl& control) {
+static Solution solve_three_step_simplicial(const AirySystem& system, const RunControl& control) {
   Solution solution;
   Eigen::SimplicialLDLT<SparseColumns> ldlt;
   run_stage(solution.times, Stage::order, MemoryOwner::factor,
@@ -32,7 +32,7 @@ Method three_step_simplicial() {
   return {.name = "3STEPD:SIMPLICIAL",
           .family = "3STEPD",
           .summary = "three-step condensation, Eigen's simplicial LDLT",
-          .solve = solve_three_step_simplicial};
+          .solve = on_airy_system(solve_three_step_simplicial)};
 }
 
 }  // namespace airybench

@@ -1,9 +1,8 @@
-#include "assembly/dual_system.hpp"
+#include "assembly/airy_system.hpp"
 
 #include "assembly/displacement_field.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/flexibility.hpp"
-#include "assembly/free_bodies.hpp"
 #include "assembly/row_order.hpp"
 #include "assembly/sparse_bytes.hpp"
 #include "assembly/stress_field.hpp"
@@ -39,7 +38,7 @@ struct EdgeFunctionals {
   std::array<int, 7> dofs;
 };
 
-EdgeFunctionals edge_functionals(const DualSystem& system, int row) {
+EdgeFunctionals edge_functionals(const AirySystem& system, int row) {
   const Problem& problem = *system.problem;
   const auto [a, b] = problem.mesh.boundary[row].vertices;
   const auto &xa = problem.mesh.vertices[a], &xb = problem.mesh.vertices[b];
@@ -54,7 +53,7 @@ EdgeFunctionals edge_functionals(const DualSystem& system, int row) {
 }
 
 template <typename Visit>
-void for_each_edge(const DualSystem& system, BoundaryRole role, Visit visit) {
+void for_each_edge(const AirySystem& system, BoundaryRole role, Visit visit) {
   const auto& boundary = system.problem->mesh.boundary;
   for (int row = 0; row < static_cast<int>(boundary.size()); ++row)
     if (boundary[row].role == role) visit(edge_functionals(system, row));
@@ -67,94 +66,7 @@ Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& 
          traction(problem.particular_stress(edge.end[end]), edge.frame.normal);
 }
 
-// The points of an edge that faces another match its points in the other order.
-void pair_points(const Problem& problem, ContactPoints& contact) {
-  std::vector<int> first(problem.mesh.boundary.size(), ContactPoints::no_point);
-  for (int p = 0; p < contact.count; p += contact.per_edge) first[contact.boundary[p]] = p;
-  contact.opposite.assign(static_cast<std::size_t>(contact.count), ContactPoints::no_point);
-  for (int p = 0; p < contact.count; ++p)
-    if (const int row = problem.opposite_of(contact.boundary[p]); row != Problem::no_row)
-      contact.opposite[p] = first[row] + contact.per_edge - 1 - p % contact.per_edge;
-}
-
-}  // namespace
-
-namespace {
-
-// The moments ū_j of a motion that is linear in x, columns, in x and y.
-template <int k, typename Motion>
-Eigen::Matrix2Xd moments_of_motion(const Problem& problem, int row, const Motion& at) {
-  Eigen::Matrix2Xd moments(2, k + 1);
-  if (problem.follows_curve(row, k))
-    return CurvedSide<double>(problem.curve_of(row, k), k).moments_of(at);
-  const auto [start, end] = problem.mesh.boundary[row].vertices;
-  const std::array<Eigen::Vector2d, 2> ends = {at(problem.mesh.vertices[start]),
-                                               at(problem.mesh.vertices[end])};
-  for (int j = 0; j <= k; ++j) moments.col(j) = moment_of(k, j, ends);
-  return moments;
-}
-
-template <int k>
-void add_contact_points(const Problem& problem, int row, ContactPoints& contact,
-                        std::vector<double>& gap) {
-  for (int j = 0; j <= k; ++j) {
-    contact.boundary.push_back(row);
-    if (contact.components == 2) contact.friction.push_back(problem.friction_at(row));
-  }
-  if (!problem.has_gap()) return;
-  const std::array<ContactOffset, k + 2> offset = offset_coefficients<k + 1>(problem, row);
-  std::array<Eigen::Vector2d, k + 2> along;  // without motion
-  for (int i = 0; i <= k + 1; ++i) along[i] = {offset[i].gap_mm, offset[i].slid_mm};
-  const int start = problem.mesh.boundary[row].vertices[0];
-  const Eigen::Matrix2Xd motion = moments_of_motion<k>(
-      problem, row, [&](const Eigen::Vector2d& x) { return problem.motion_at(x, start); });
-  for (int j = 0; j <= k; ++j) {
-    const EdgeFrame frame = problem.frame_of_moment(row, k, j);
-    const Eigen::Vector2d moment =
-        moment_of(k, j, along) -
-        Eigen::Vector2d(frame.normal.dot(motion.col(j)), frame.tangent.dot(motion.col(j)));
-    gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
-  }
-}
-
-// The moment ū_j of a motion.
-template <int k>
-Eigen::Vector2d moment_in_frame(const Problem& problem, int row, int j, const RigidMotion& motion) {
-  const Eigen::Vector2d moment = moments_of_motion<k>(problem, row, [&](const Eigen::Vector2d& x) {
-                                   return motion.at(x);
-                                 }).col(j);
-  const EdgeFrame frame = problem.frame_of_moment(row, k, j);
-  return {frame.normal.dot(moment), frame.tangent.dot(moment)};
-}
-
-}  // namespace
-
-ContactPoints contact_points(const Problem& problem, int degree) {
-  ContactPoints contact;
-  contact.per_edge = degree + 1;
-  contact.components = problem.has_friction() ? 2 : 1;
-  std::vector<double> gap;
-  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
-    if (problem.mesh.boundary[row].role == BoundaryRole::contact)
-      with_degree(degree, [&](auto k) { add_contact_points<k>(problem, row, contact, gap); });
-  contact.count = static_cast<int>(contact.boundary.size());
-  if (!problem.opposite.empty()) pair_points(problem, contact);
-  contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
-  add_free_bodies(
-      problem,
-      [&](const RigidMotion& motion, int p) {
-        return with_degree(degree, [&](auto k) -> Eigen::Vector2d {
-          return moment_in_frame<k>(problem, contact.boundary[p], p % contact.per_edge, motion);
-        });
-      },
-      contact);
-  contact.free.edge_reach = 1. / (degree + 2);  // of ∫ B_j
-  return contact;
-}
-
-namespace {
-
-void build_constraints(DualSystem& system) {
+void build_constraints(AirySystem& system) {
   const Problem& problem = *system.problem;
   const Loads& loads = problem.loads;
   ForceRows on_force, on_contact;
@@ -200,7 +112,7 @@ void build_constraints(DualSystem& system) {
 }
 
 // q_i = ∫_{Γ_D} u0·σ(φ_i)n − ∫ σ(φ_i):C:σ_p.
-void build_load(DualSystem& system) {
+void build_load(AirySystem& system) {
   const Problem& problem = *system.problem;
   const Loads& loads = problem.loads;
   if (!loads.displacement_mm && !loads.has_body_force()) return;
@@ -230,28 +142,32 @@ void build_load(DualSystem& system) {
 
 }  // namespace
 
-std::size_t DualSystem::bytes() const {
-  const auto vectors = scale.size() + q.size() + F.size() + F0.size() + contact.gap.size();
-  return bytes_of(S) + bytes_of(C_F) + bytes_of(C_C) +
+std::size_t AirySystem::bytes() const {
+  const auto vectors = scale.size() + q.size() + F.size() + F0.size();
+  return ContactSystem::bytes() + bytes_of(S) + bytes_of(C_F) + bytes_of(C_C) +
          static_cast<std::size_t>(vectors) * sizeof(double) +
-         (dofs.of_vertex.size() + dofs.of_edge.size() + contact.boundary.size()) * sizeof(int);
+         (dofs.of_vertex.size() + dofs.of_edge.size()) * sizeof(int);
 }
 
-std::string why_no_blocks(const Problem& problem, Blocks blocks) {
+void AirySystem::set_load_case(std::shared_ptr<const Problem> load_case) {
+  ContactSystem::set_load_case(std::move(load_case));
+  for (Eigen::VectorXd* load : {&q, &F, &F0}) load->resize(0);
+  build_constraints(*this);
+  build_load(*this);
+}
+
+std::string why_no_airy_function(const Problem& problem) {
   const int holes = hole_count(problem.mesh);
-  if (blocks == Blocks::contact_points || holes == 0) return "";
+  if (holes == 0) return "";
   return "a body with " + std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
          " needs a multi-valued Airy function";
 }
 
-DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks, int degree) {
-  if (const std::string why = why_no_blocks(*problem, blocks); !why.empty())
+AirySystem airy_system(std::shared_ptr<const Problem> problem) {
+  if (const std::string why = why_no_airy_function(*problem); !why.empty())
     throw std::invalid_argument(why);
-  DualSystem system;
-  system.problem = std::move(problem);
-  system.degree = degree;
-  system.contact = contact_points(*system.problem, degree);
-  if (blocks == Blocks::contact_points) return system;
+  AirySystem system;
+  system.ContactSystem::set_load_case(std::move(problem));
   {
     const NodeGraph graph = airy_node_graph(*system.problem);
     const std::vector<int> position = cuthill_mckee(graph);
@@ -265,16 +181,7 @@ DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks, int d
   return system;
 }
 
-void set_load_case(DualSystem& system, std::shared_ptr<const Problem> problem) {
-  system.problem = std::move(problem);
-  system.contact = contact_points(*system.problem, system.degree);
-  for (Eigen::VectorXd* load : {&system.q, &system.F, &system.F0}) load->resize(0);
-  if (system.n() == 0) return;  // contact points only
-  build_constraints(system);
-  build_load(system);
-}
-
-Eigen::VectorXd airy_function(const DualSystem& system, const Eigen::VectorXd& x) {
+Eigen::VectorXd airy_function(const AirySystem& system, const Eigen::VectorXd& x) {
   const DofNumbering& dofs = system.dofs;
   const auto vertices = static_cast<Eigen::Index>(dofs.of_vertex.size());
   const auto edges = static_cast<Eigen::Index>(dofs.of_edge.size());
