@@ -120,9 +120,9 @@ Compared check_case(const Method& program, const PosedScene& scene, const CaseSe
   Method watched = program;
   watched.solve = [&](const ContactSystem& system, const RunControl& control) {
     Solution answer = program.solve(system, control);
-    if (answer.program)
-      answer.program->allowed_penetration =
-          std::max(answer.program->allowed_penetration, allowed_penetration);
+    if (auto* const of = std::get_if<Displacements>(&answer.unknowns); of && of->by_program)
+      of->by_program->allowed_penetration =
+          std::max(of->by_program->allowed_penetration, allowed_penetration);
     F = answer.F_C;
     return answer;
   };

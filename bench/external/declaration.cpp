@@ -138,13 +138,13 @@ Declaration read_declaration(const std::filesystem::path& file) {
     const double given = value.json.is_number() ? value.json.get<double>() : 0;
     if (declaration.returns != Returns::displacement || !(given > 0 && given <= fewest_digits))
       value.fail("with \"returns\": \"displacement\", above 0, up to 5e-6: six digits");
-    declaration.print_precision = given;
+    declaration.tolerances.print_precision = given;
   };
   const auto read_allowed_penetration = [&](const JsonValue& value) {
     const double given = value.json.is_number() ? value.json.get<double>() : 0;
     if (declaration.returns != Returns::displacement || !(given > 0 && given <= 1))
       value.fail("with \"returns\": \"displacement\", above 0, up to 1");
-    declaration.allowed_penetration = given;
+    declaration.tolerances.allowed_penetration = given;
   };
   const auto flag_of_displacement = [&](bool& flag) {
     return [&](const JsonValue& value) {
@@ -186,7 +186,7 @@ Declaration read_declaration(const std::filesystem::path& file) {
                {"first_tolerance", read_tolerance},
                {"print_precision", read_print_precision},
                {"allowed_penetration", read_allowed_penetration},
-               {"weak_contact", flag_of_displacement(declaration.weak_contact)},
+               {"weak_contact", flag_of_displacement(declaration.tolerances.weak_contact)},
                {"joins_bodies", flag_of_displacement(declaration.joins_bodies)},
                {"load_steps", flag_of_displacement(declaration.load_steps)}});
   if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);

@@ -38,6 +38,7 @@
 #include <string_view>
 #include <vector>
 
+#include "solvers/base/solution.hpp"
 #include "support/process.hpp"
 
 namespace airybench {
@@ -61,9 +62,8 @@ struct Declaration {
   std::vector<std::string> command;
   std::string version = "unknown version";  // printed by its version command
   double first_tolerance = 0;
-  double print_precision = 0;
-  double allowed_penetration = 1e-3;
-  bool weak_contact = false, joins_bodies = false, load_steps = false;
+  ProgramTolerances tolerances = {.allowed_penetration = 1e-3};
+  bool joins_bodies = false, load_steps = false;
 };
 
 // Excludes globs, lists and parts of paths, so that a user can select the name.

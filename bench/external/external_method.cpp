@@ -187,8 +187,9 @@ Solution solve_airy(const Caller& caller, const AirySystem& system, const RunCon
   const Eigen::VectorXd x = program.array("x.mtx", system.n(), 1);
   Solution solution = program.take_over(control, program.contact_forces(system.n_c()));
   const StageTimer timer(solution.times, Stage::recover);
-  solution.phi = airy_function(system, x);
-  solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+  Eigen::VectorXd phi = airy_function(system, x);
+  solution.stress = stress_of_airy_function(*system.problem, phi);
+  solution.unknowns = AiryFunction{std::move(phi)};
   return solution;
 }
 
@@ -213,15 +214,13 @@ Solution solve_body(const Caller& caller, const ContactSystem& system, const Run
   const Eigen::MatrixXd values =
       program.array("displacement_mm.mtx", displacement_nodes(problem), 2);
   Solution solution = program.take_over(control);
-  solution.program->print_precision = caller.declaration.print_precision;
-  solution.program->allowed_penetration = caller.declaration.allowed_penetration;
-  solution.program->weak_contact = caller.declaration.weak_contact;
   const StageTimer timer(solution.times, Stage::recover);
-  solution.displacement = displacement_of(problem, values);
-  solution.stress = stress_of_displacement(problem, solution.displacement);
+  DisplacementField w = displacement_of(problem, values);
+  solution.stress = stress_of_displacement(problem, w);
   const ControlPoints points = control_points(problem);
   solution.F_C = contact_reactions(problem, points, solution.stress);
-  solution.contact_displacement = displacement_at(points, solution.displacement);
+  solution.contact_displacement = displacement_at(points, w);
+  solution.unknowns = Displacements{std::move(w), caller.declaration.tolerances};
   return solution;
 }
 
@@ -242,7 +241,7 @@ Solution solve_hybridized_body(const Caller& caller, const ContactSystem& system
   MomentsCheck own = check_moments(system, moments);
   solution.stress = std::move(own.stress);
   solution.contact_displacement = std::move(own.contact_displacement);
-  solution.edge_moments = std::move(moments);
+  solution.unknowns = EdgeDisplacements{std::move(moments)};
   return solution;
 }
 
@@ -354,7 +353,7 @@ Method external_method(const Declaration& declaration,
       solve = solve_body;
       break;
     case Declaration::Returns::edge_displacements:
-      method.unknowns = Unknowns::edge_moments;
+      method.unknowns = Unknowns::edge_displacements;
       solve = solve_hybridized_body;
       break;
     case Declaration::Returns::contact_forces:

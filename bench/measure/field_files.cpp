@@ -265,7 +265,7 @@ std::vector<Eigen::Vector2d> between_bodies(const ContactPoints& contact,
 ContactPicture contact_picture(const ContactSystem& system, const Solution& solution,
                                const std::optional<DisplacementField>& w) {
   const ContactPoints& contact = system.contact;
-  const bool has_own_points = solution.displacement.cols() == 0;
+  const bool has_own_points = solution.as<Displacements>() == nullptr;
   ContactPicture picture;
   picture.per_edge = static_cast<std::size_t>(contact.per_edge);
   picture.opposite = contact.opposite;
@@ -307,16 +307,9 @@ ContactPicture contact_picture(const ContactSystem& system, const Solution& solu
   return picture;
 }
 
-bool has_own_displacement(const Solution& solution) {
-  return solution.displacement.cols() > 0 || solution.edge_moments.cols() > 0;
-}
-
 SolvedFields own_fields(const ContactSystem& system, const Solution& solution) {
-  SolvedFields fields{system, solution, {}, nullptr, nullptr, {}};
-  if (solution.displacement.cols() > 0)
-    fields.w = solution.displacement;
-  else if (solution.edge_moments.cols() > 0)
-    fields.w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  SolvedFields fields{system,  solution, displacement_of_answer(system, solution),
+                      nullptr, nullptr,  {}};
   if (fields.w && !fields.w->allFinite()) fields.w.reset();
   return fields;
 }
@@ -344,7 +337,7 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
   if (fields.w) u = with_rigid_motion(problem, *fields.w);
   write(".stress.csv", stress_csv(problem, stress));
   write(".boundary.csv", boundary_csv(problem));
-  const bool is_part = fields.solution.displacement.cols() == 0;  // else F_C has other points
+  const bool is_part = fields.solution.as<Displacements>() == nullptr;  // else F_C has other points
   const PartFiles part = is_part ? part_files(fields, contact) : PartFiles();
   write_if(is_part, ".answer.json", [&] { return json_text(to_json(part.answer)); });
   write_if(is_part, ".faces.csv", [&] { return part.faces_csv; });

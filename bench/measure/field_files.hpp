@@ -71,7 +71,6 @@ struct SolvedFields {
   bool picture = false;  // also the files of part_picture.hpp
 };
 
-bool has_own_displacement(const Solution& solution);  // or the moments that it is recovered from
 // Without error and mean; w if the solution has its own, and finite.
 SolvedFields own_fields(const ContactSystem& system, const Solution& solution);
 

@@ -59,23 +59,22 @@ JudgedStep Judge::judged(const std::vector<JudgedStep>& before, const ContactSys
                          const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
   const int step = static_cast<int>(before.size());
-  const double dissipation = dissipation_Nmm(system, solution);
-  if (solution.displacement.cols() == 0) {
-    const Verification v = verify(system, solution, reference(system.degree, step));
+  JudgedStep result = {.claimed_status = solution.status,
+                       .verification = verify(system, solution, reference(system.degree, step)),
+                       .dissipation_Nmm = dissipation_Nmm(system, solution)};
+  const auto* const displacements = solution.as<Displacements>();
+  if (displacements == nullptr) {
     double start_off_N = 0;
     for (const JudgedStep& one : before) start_off_N += one.verification.slip_off_N;
-    return {solution.status, v, verify_as_other_solution(system, solution, v, start_off_N),
-            dissipation};
-  }
-  JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
-  if (solution.program) {
+    result.as_other = verify_as_other_solution(system, solution, result.verification, start_off_N);
+  } else if (displacements->by_program) {
     // A zero stress from the program does not prove that the body has none, nor the reference's
     // that the program's is right.
     const double energy_norm = std::sqrt(2 * result.verification.strain_energy_Nmm);
     result.verification.unstressed =
         reference(1, step) != nullptr && reference(1, step)->stress.values().isZero(0) &&
         energy_norm <= common_.target_error * load_scale(*system.problem).energy_norm;
-    result.displacement = solution.displacement;
+    result.displacement = displacements->w;
   }
   return result;
 }
@@ -116,11 +115,14 @@ Verdict Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps,
   Verdict verdict = std::move(own);
   const auto is_ok = [&] { return verdict.status == Status::ok; };
   if (is_ok()) verdict = judge_method_error(asked, steps, solution, std::move(verdict), record);
-  if (is_ok() && solution.program)
-    verdict = judge_penetration(steps, solution.program->allowed_penetration, std::move(verdict));
+  const auto* const displacements = solution.as<Displacements>();
+  const bool is_by_program = displacements != nullptr && displacements->by_program;
+  if (is_ok() && is_by_program)
+    verdict = judge_penetration(steps, displacements->by_program->allowed_penetration,
+                                std::move(verdict));
   if (!problem_) return verdict;
   record.polygons = polygon_groups(*problem_, method.in_displacements() ? 1 : method.degree);
-  if (!method.in_displacements() || !solution.program) {
+  if (!is_by_program) {
     note_discretisation(method, record);
   } else if (reference(1) == nullptr) {
     return {has_answer(verdict.status) ? Status::inaccurate : verdict.status,

@@ -92,11 +92,12 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   if (method.degree != degree) method = select_methods(hybrid_of_degree(degree)).front();
   Solve solve = method.solve;
   if (bound == Bound::displacement) {
-    solve_load_steps(select_methods(displacements_of_degree(degree + 1)).front(), problem_, {},
-                     [&](int, const ContactSystem&, const Solution& answer) {
-                       if (answer.status == Status::ok)
-                         own_u.push_back({answer.displacement, answer.free_motion_mm});
-                     });
+    solve_load_steps(
+        select_methods(displacements_of_degree(degree + 1)).front(), problem_, {},
+        [&](int, const ContactSystem&, const Solution& answer) {
+          if (answer.status == Status::ok)
+            own_u.push_back({std::get<Displacements>(answer.unknowns).w, answer.free_motion_mm});
+        });
     if (std::ssize(own_u) < count_of_steps(*problem_)) return {};
     solve = references_one_by_one(degree);
   }
@@ -114,7 +115,7 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
                 std::make_shared<const Problem>(with_free_motion(*posed.problem, free_motion_mm)));
           std::tie(result.error, result.u) = error_of_displacements(moved ? *moved : posed, own, u);
         } else {
-          result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
+          result.u = recovered_displacement(posed, own);
           result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
         }
         result.total.add(result.error, prefix_of(step),
@@ -216,7 +217,8 @@ void Judge::write_fields_of(const Method& method, const ContactSystem& system,
       bound && record.outcome != other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
   fields.picture = common_.picture;
-  if (!has_own_displacement(solution) && known != nullptr && known->u.allFinite())
+  if (!solution.as<Displacements>() && !solution.as<EdgeDisplacements>() && known != nullptr &&
+      known->u.allFinite())
     fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;

@@ -34,7 +34,7 @@ namespace {
 
 Method adapting_method(const std::string& name) {
   const auto is_fit = [](const Method& method) {
-    return method.unknowns == Unknowns::edge_moments;
+    return method.unknowns == Unknowns::edge_displacements;
   };
   std::string allowed;
   for (const Method& method : methods()) {

@@ -16,7 +16,6 @@
 #include "mesh/bisection.hpp"
 #include "mesh/refinement.hpp"
 #include "mesh/transform.hpp"
-#include "support/errors.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -100,11 +99,7 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const ContactSystem& sy
                          prefix, name_of(solution.status), solution.message);
     return;
   }
-  if (solution.edge_moments.cols() == 0)
-    throw UsageError(fmt::format(
-        "--adapt: by={} (allowed: a method with edge displacements, as HYBRID)", method_.name));
-  const DisplacementField w =
-      recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  const DisplacementField w = recovered_displacement(system, solution);
   const ConstitutiveError of_step = constitutive_error(system, solution.stress, solution.F_C, w);
   error.add(of_step, prefix);
   if (settings_.stress_error) {

@@ -299,10 +299,16 @@ class Recovery {
 
 }  // namespace
 
-DisplacementField recovered_displacement(const ContactSystem& system, const StressField& stress,
-                                         const Eigen::VectorXd& F_C,
-                                         const Eigen::MatrixXd& edge_moments) {
-  return Recovery(system, stress, F_C, edge_moments).displacement();
+DisplacementField recovered_displacement(const ContactSystem& system, const Solution& answer) {
+  const auto& [moments] = std::get<EdgeDisplacements>(answer.unknowns);
+  return Recovery(system, answer.stress, answer.F_C, moments).displacement();
+}
+
+std::optional<DisplacementField> displacement_of_answer(const ContactSystem& system,
+                                                        const Solution& answer) {
+  if (const auto* const displacements = answer.as<Displacements>()) return displacements->w;
+  if (answer.as<EdgeDisplacements>()) return recovered_displacement(system, answer);
+  return {};
 }
 
 DisplacementField admissible_displacement(const ContactSystem& system, const Eigen::VectorXd& F_C,

@@ -26,15 +26,19 @@
 // (discretisation_error.hpp).
 #pragma once
 
+#include <optional>
+
 #include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 
-// Coefficients of w. stress, F_C and edge_moments belong to one Solution.
-DisplacementField recovered_displacement(const ContactSystem& system, const StressField& stress,
-                                         const Eigen::VectorXd& F_C,
-                                         const Eigen::MatrixXd& edge_moments);
+// Coefficients of w. The answer must have edge displacements.
+DisplacementField recovered_displacement(const ContactSystem& system, const Solution& answer);
+// The same, or of displacements these; of other answers there is none.
+std::optional<DisplacementField> displacement_of_answer(const ContactSystem& system,
+                                                        const Solution& answer);
 
 // Makes w admissible: applies the treatment of Γ_D and Γ_C above.
 DisplacementField admissible_displacement(const ContactSystem& system, const Eigen::VectorXd& F_C,

@@ -105,20 +105,21 @@ Eigen::Vector2d take_weak_forces(const Problem& problem, const std::vector<bool>
 
 Verification verify_displacement(const ContactSystem& system, const Solution& solution) {
   const Problem& problem = *system.problem;
+  const auto& [w, by_program] = std::get<Displacements>(solution.unknowns);
   const int degree = system.degree + 1;
   const ControlPoints control = control_points(problem, degree);
   const int m = control.law.components;
   const LoadScale scale = load_scale(problem);
-  const StressField stress = stress_of_displacement(problem, solution.displacement);
+  const StressField stress = stress_of_displacement(problem, w);
   NodalForces balance = nodal_forces(problem, stress);
   balance.sum -= nodal_loads(problem, degree);
 
-  const Eigen::VectorXd displacement = displacement_at(control, solution.displacement);
+  const Eigen::VectorXd displacement = displacement_at(control, w);
   for (int p = 0; p < control.law.count; ++p) {
     const Eigen::Matrix2d frame = control.frame(p);
     const int node = control.node[p];
     for (int k = 0; k < m; ++k) balance.sum.col(node) -= solution.F_C(m * p + k) * frame.col(k);
-    if (m == 1 && solution.program && !control.on_roller[p]) {
+    if (m == 1 && by_program && !control.on_roller[p]) {
       const Eigen::Vector2d t = frame.col(1);
       const double off = t.dot(balance.sum.col(node));
       const double beyond = beyond_both_normals(problem, control, p, solution.F_C(p), off);
@@ -129,15 +130,14 @@ Verification verify_displacement(const ContactSystem& system, const Solution& so
   for (const auto& [node, n] : prescribed.normal)  // the roller's reaction
     balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
   Eigen::Vector2d weak_N(0, 0);
-  const bool is_weak = solution.program && solution.program->weak_contact;
+  const bool is_weak = by_program && by_program->weak_contact;
   if (is_weak) weak_N = take_weak_forces(problem, prescribed.at, balance.sum);
   Eigen::Vector2d resultant(0, 0);
   for (std::size_t node = 0; node < prescribed.at.size(); ++node)
     if (!prescribed.at[node]) resultant += balance.sum.col(node);
   Eigen::VectorXd rounding;  // per contact point
-  if (solution.program && solution.program->print_precision > 0) {
-    const Eigen::Matrix2Xd of_nodes =
-        forces_of_rounding(problem, solution.displacement, solution.program->print_precision);
+  if (by_program && by_program->print_precision > 0) {
+    const Eigen::Matrix2Xd of_nodes = forces_of_rounding(problem, w, by_program->print_precision);
     balance.sum = (balance.sum.cwiseAbs() - of_nodes).cwiseMax(0.0);
     rounding.resize(control.law.count);
     for (int p = 0; p < control.law.count; ++p) rounding(p) = of_nodes.col(control.node[p]).norm();
@@ -150,8 +150,7 @@ Verification verify_displacement(const ContactSystem& system, const Solution& so
   Verification result;
   constexpr double of_doubles = 1e-15;
   result.prescribed_off = relative_to_prescribed(
-      problem, solution.displacement, prescribed,
-      of_doubles + (solution.program ? solution.program->print_precision : 0));
+      problem, w, prescribed, of_doubles + (by_program ? by_program->print_precision : 0));
   result.equilibrium_residual = scale.relative_force(unbalanced, balance.largest);
   result.unbalanced_N = resultant.norm();
   result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;
@@ -164,11 +163,11 @@ Verification verify_displacement(const ContactSystem& system, const Solution& so
   note_contact_law(law, F, displacement, compliance, scale, result);
   note_slip(problem, law, F, solution.contact_displacement, displacement, compliance, scale,
             result);
-  const Penetration through = penetration(problem, solution.displacement);
+  const Penetration through = penetration(problem, w);
   result.penetration_mm = through.at_nodes_mm;
   result.edge_penetration_mm = through.on_edges_mm;
   result.penetration_share = through.share;
-  if (!solution.program) return result;
+  if (!by_program) return result;
   // The program has another discrete law: only the violations in N apply.
   result.natural_map_residual.reset();
   const Eigen::VectorXd r = relative_to_gap(law, displacement);

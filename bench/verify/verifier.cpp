@@ -257,9 +257,9 @@ void verify_contact(const ContactSystem& system, const Solution& solution,
       scale.relative_energy(D_norm(D, F - reference->F_C), D_norm(D, reference->F_C));
 }
 
-void verify_moments(const ContactSystem& system, const Solution& solution, const LoadScale& scale,
-                    Verification& result) {
-  const MomentsCheck check = check_moments(system, solution.edge_moments);
+void verify_moments(const ContactSystem& system, const Solution& solution,
+                    const EdgeDisplacements& edges, const LoadScale& scale, Verification& result) {
+  const MomentsCheck check = check_moments(system, edges.moments);
   result.stress_of_moments_off =
       scale.relative_energy(stress_distance(*system.problem, solution.stress, check.stress),
                             std::sqrt(stress_norm_squared(*system.problem, solution.stress)));
@@ -275,6 +275,7 @@ void verify_moments(const ContactSystem& system, const Solution& solution, const
 
 Verification verify(const ContactSystem& system, const Solution& solution,
                     const Reference* reference) {
+  if (solution.as<Displacements>()) return verify_displacement(system, solution);
   const Problem& problem = *system.problem;
   Verification result;
   const EdgeBalance balance = edge_balance(problem, solution.stress);
@@ -292,8 +293,8 @@ Verification verify(const ContactSystem& system, const Solution& solution,
     result.reference_error = reference->error_estimate;
   }
   if (system.contact.count > 0) verify_contact(system, solution, reference, scale, result);
-  if (reference == nullptr && solution.edge_moments.cols() > 0)
-    verify_moments(system, solution, scale, result);
+  if (const auto* const edges = solution.as<EdgeDisplacements>(); edges && reference == nullptr)
+    verify_moments(system, solution, *edges, scale, result);
   return result;
 }
 

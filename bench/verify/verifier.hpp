@@ -55,11 +55,12 @@ struct Verification {
   std::optional<double> unbalanced_N;  // |Σ loads + contact forces + reactions on Γ_D|
 };
 
-// reference: may be null; then edge moments, if any, and ρ = 1/rough_compliance check the law.
+// By the judge of its unknowns. reference: may be null; then edge displacements, if any, and
+// ρ = 1/rough_compliance check the law. Displacements do not need it.
 Verification verify(const ContactSystem& system, const Solution& solution,
                     const Reference* reference);
 
-// For a displacement method, whose discrete problem has no reference: judges displacements and
+// Of displacements, whose discrete problem has no reference: judges displacements and
 // forces at the control points (control_points.hpp). Sets no error_*, no complementary energy.
 //   prescribed_off        on Γ_D, of rollers the normal part, less what printed digits explain
 //   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
@@ -68,8 +69,8 @@ Verification verify(const ContactSystem& system, const Solution& solution,
 //                         or of wall and face; less what rounding to its print_precision explains
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance
 //   n_open, n_stick, n_slip  of a program from trial forces F − ρ r: its F_n is seldom exactly 0
-// A program's weak contact law (ProgramRun::weak_contact) also loads inner nodes of the triangles
-// along Γ_C. What is unbalanced there is part of the resultants.
+// A program's weak contact law (ProgramTolerances::weak_contact) also loads inner nodes of the
+// triangles along Γ_C. What is unbalanced there is part of the resultants.
 Verification verify_displacement(const ContactSystem& system, const Solution& solution);
 
 // For a contact problem without a body: the contact law, and the measure that Siconos stops on

@@ -52,7 +52,7 @@ enum class AccuracyKnob {
 // What a method solves for.
 enum class Unknowns {
   airy_function,
-  edge_moments,
+  edge_displacements,
   displacements,  // of another discrete problem: the stresses do not balance and are not those of
                   // the reference, so they are judged by the discretisation error alone
   contact_forces  // of a problem that came condensed

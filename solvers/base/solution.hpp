@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "assembly/stress_field.hpp"
@@ -40,10 +41,7 @@ struct ProgramRun {
   double solve_s = 0;           // its solve, by its own clock
   double not_solve_s = 0;       // part of our time that its own clock leaves out: start-up, files
   std::int64_t peak_bytes = 0;  // resident, of it and its child processes
-  double print_precision = 0;   // largest relative rounding of its numbers; 0: of doubles
-  double allowed_penetration = 0;  // of its displacements, relative to the largest
-  bool weak_contact = false;       // its contact law also loads inner nodes next to Γ_C
-  std::string log;                 // its log for the reader
+  std::string log;              // its log for the reader
 };
 
 // Wall clock of an iteration's pieces, in whatever stage it ran.
@@ -51,6 +49,28 @@ struct IterationTimes {
   double matrix_s = 0;    // products with the matrix
   double smoother_s = 0;  // sweeps of its preconditioner
   double coarse_s = 0;    // its coarse problem, and what goes to it and back
+};
+
+// What a method solves for, by kind. The Airy function, as airy_function() gives it:
+struct AiryFunction {
+  Eigen::VectorXd phi;
+};
+// The moments ū_j (equilibrium_element.hpp) of w on every edge; rows: x and y of each, from the low
+// vertex on; mm.
+struct EdgeDisplacements {
+  Eigen::MatrixXd moments;
+};
+// Of another program: how its displacements may differ from ours.
+struct ProgramTolerances {
+  double print_precision = 0;      // largest relative rounding of its numbers; 0: of doubles
+  double allowed_penetration = 0;  // relative to the largest displacement
+  bool weak_contact = false;       // its contact law also loads inner nodes next to Γ_C
+};
+// A DisplacementField w (displacement_field.hpp) of one degree more than the stresses, without the
+// problem's rigid motion, mm.
+struct Displacements {
+  Eigen::Matrix2Xd w;
+  std::optional<ProgramTolerances> by_program = {};
 };
 
 // The defaults are those of a method that never ran.
@@ -64,14 +84,8 @@ struct Solution {
   // Of pieces that contact alone holds (free_motions.hpp); empty: there is none, or it is known.
   // ū_C and displacements are those of the pinned pieces, without it.
   Eigen::VectorXd free_motion_mm;
-  Eigen::VectorXd phi;  // Airy function as airy_function() gives it; empty: the method has none
-  StressField stress;   // MPa
-  // Displacement methods only: a DisplacementField w (displacement_field.hpp) of one degree more
-  // than the stresses, without the problem's rigid motion, mm.
-  Eigen::Matrix2Xd displacement;
-  // Hybridized methods only: the moments ū_j (equilibrium_element.hpp) of w on every edge; rows: x
-  // and y of each, from the low vertex on; mm.
-  Eigen::MatrixXd edge_moments;
+  std::variant<std::monostate, AiryFunction, EdgeDisplacements, Displacements> unknowns;
+  StressField stress;  // MPa
   StageTimes times;
   // Counted by the method as entries × size: what it holds between stages, and the vectors of its
   // iteration. Without the blocks.
@@ -96,6 +110,11 @@ struct Solution {
   // With RunControl::keep_body, where the method can: solves another load case of the same body
   // with the factor and D of this solve, which it owns (kept_body.hpp).
   std::function<Solution(const ContactSystem& load_case, const RunControl&)> solve_again;
+
+  template <typename Kind>
+  const Kind* as() const {  // null: its unknowns are of another kind
+    return std::get_if<Kind>(&unknowns);
+  }
 };
 
 // On the heap and in files, without the vectors of an iteration.

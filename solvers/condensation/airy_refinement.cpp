@@ -182,7 +182,7 @@ void refine_airy_answer(const AirySystem& system, const contact::Problem& conden
     if (slow) break;
   }
   const OwnerScope scope_of_answer(MemoryOwner::answer);
-  solution.phi = airy_function(system, best.x.cast<double>());
+  solution.unknowns = AiryFunction{airy_function(system, best.x.cast<double>())};
   solution.stress = airy_stress(system, best.x);
   solution.contact_displacement = -best.lambda_C.cast<double>();
   // The motion of a free body stays that of the first answer.

@@ -26,7 +26,7 @@ void element_unknowns(const Problem& problem, const EdgeUnknowns& unknown, int t
 constexpr int no_frame = -1;
 std::vector<int> rows_in_frame(const Problem& problem);
 
-// ū of every edge (Solution::edge_moments), from the unknowns and prescribed_displacements(). mm
+// ū of every edge (EdgeDisplacements), from the unknowns and prescribed_displacements(). mm
 Eigen::MatrixXd edge_moments(const Problem& problem, const EdgeUnknowns& unknown,
                              const Eigen::MatrixXd& prescribed, const Eigen::VectorXd& u);
 

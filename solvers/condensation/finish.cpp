@@ -61,8 +61,9 @@ Solution solve_load_case(KeptAiryBody& body, const AirySystem& system, const Run
 
 void store_airy_answer(const AirySystem& system, const Eigen::VectorXd& x, Solution& solution) {
   const OwnerScope scope(MemoryOwner::answer);
-  solution.phi = airy_function(system, x);
-  solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+  Eigen::VectorXd phi = airy_function(system, x);
+  solution.stress = stress_of_airy_function(*system.problem, phi);
+  solution.unknowns = AiryFunction{std::move(phi)};
 }
 
 void finish_in_airy_function(const AirySystem& system, const RunControl& control,

@@ -101,7 +101,7 @@ Problem with_half_steps(const Problem& first) {
 Eigen::MatrixXd slid_after(const ContactSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
   if (!problem.has_friction() || system.contact.count == 0) return {};
-  const bool in_displacements = answer.displacement.cols() > 0;
+  const bool in_displacements = answer.as<Displacements>() != nullptr;
   const Eigen::Index coefficients = system.degree + (in_displacements ? 2 : 1);
   Eigen::MatrixXd slid = problem.loads.slid_mm;
   if (slid.size() == 0) slid.setZero(coefficients, std::ssize(problem.mesh.boundary));
@@ -121,9 +121,8 @@ Eigen::MatrixXd slid_after(const ContactSystem& system, const Solution& answer) 
 double dissipation_Nmm(const ContactSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
   if (!problem.has_friction() || answer.contact_displacement.size() == 0) return 0;
-  const ContactPoints law = answer.displacement.cols() > 0
-                                ? control_points(problem, system.degree + 1).law
-                                : system.contact;
+  const ContactPoints law =
+      answer.as<Displacements>() ? control_points(problem, system.degree + 1).law : system.contact;
   const Eigen::VectorXd slip = less_gap(law, answer.contact_displacement);
   double work = 0;
   for (int p = 0; p < law.count; ++p) work -= answer.F_C(2 * p + 1) * slip(2 * p + 1);

@@ -18,8 +18,9 @@ void finish_displacements(const ContactSystem& given, const RunControl& control,
   finish_in_displacements(
       problem, control, body.condensed, *body.factor,
       [&](const Eigen::VectorXd& unknowns) {
-        solution.displacement = displacement_field(body.system, unknowns);
-        solution.stress = stress_of_displacement(problem, solution.displacement);
+        DisplacementField w = displacement_field(body.system, unknowns);
+        solution.stress = stress_of_displacement(problem, w);
+        solution.unknowns = Displacements{std::move(w)};
       },
       [&] {
         const NodalForces forces = nodal_forces(problem, solution.stress);

@@ -27,8 +27,8 @@ void finish_hybridized(const ContactSystem& given, const RunControl& control, Hy
       [&](const Eigen::VectorXd& u) {
         answer = recover_stresses(problem, body.system, u);
         solution.stress = std::move(answer.stress);
-        solution.edge_moments =
-            edge_moments(problem, body.system.unknown, body.system.displacement, u);
+        solution.unknowns = EdgeDisplacements{
+            edge_moments(problem, body.system.unknown, body.system.displacement, u)};
       },
       [&] {
         answer.unbalanced.r.tail(body.system.n_c) += solution.F_C;
@@ -83,7 +83,7 @@ Method hybrid_method(const Factors& of, int degree = 1) {
   Method method = {.name = "HYBRID" + (first.empty() ? "" : ":" + first),
                    .family = "HYBRID",
                    .summary = of.summary,
-                   .unknowns = Unknowns::edge_moments,
+                   .unknowns = Unknowns::edge_displacements,
                    .degree = degree,
                    .solve =
                        [make = of.make](const ContactSystem& given, const RunControl& control) {

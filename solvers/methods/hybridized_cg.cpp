@@ -137,7 +137,8 @@ void finish_iteratively(const ContactSystem& given, const RunControl& control, K
     solution.contact_displacement = u.tail(body.system.n_c);
     answer = recover_stresses(problem, body.system, u);
     solution.stress = std::move(answer.stress);
-    solution.edge_moments = edge_moments(problem, body.system.unknown, body.system.displacement, u);
+    solution.unknowns =
+        EdgeDisplacements{edge_moments(problem, body.system.unknown, body.system.displacement, u)};
     answer.unbalanced.r.tail(body.system.n_c) += solution.F_C;
   });
   if (rows.converged)  // else the check's own solves would not end either
@@ -173,7 +174,7 @@ Method hybrid_cg() {
   return {.name = "HYBRID:CG",
           .family = "HYBRID:CG",
           .summary = "hybridized equilibrium elements, two-level Krylov iteration, active sets",
-          .unknowns = Unknowns::edge_moments,
+          .unknowns = Unknowns::edge_displacements,
           .joins_bodies = false,
           .stages = {Stage::precondition, Stage::order, Stage::factor, Stage::contact,
                      Stage::recover, Stage::check},

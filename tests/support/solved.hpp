@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "assembly/displacement_field.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/dense_algebra.hpp"
 
@@ -12,6 +13,14 @@ namespace airybench::testing {
 inline Solution solved_by(const std::string& method, const ContactSystem& system,
                           const RunControl& control = {}) {
   return run(select_methods(method).front(), system, control);
+}
+
+// Of a displacement method, of one in the Airy function.
+inline const DisplacementField& displacement(const Solution& solution) {
+  return std::get<Displacements>(solution.unknowns).w;
+}
+inline const Eigen::VectorXd& phi(const Solution& solution) {
+  return std::get<AiryFunction>(solution.unknowns).phi;
 }
 
 inline RunControl with_tolerance(double tolerance) {

@@ -31,9 +31,8 @@ struct SolvedScene {
   const Problem& problem() const { return *system.problem; }
   double energy() const { return stress_norm_squared(problem(), solution.stress) / 2; }
   ConstitutiveError recovered_error() const {
-    return constitutive_error(
-        system, solution.stress, solution.F_C,
-        recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
+    return constitutive_error(system, solution.stress, solution.F_C,
+                              recovered_displacement(system, solution));
   }
 };
 

@@ -58,7 +58,7 @@ struct Face {
       slip(p) = r(2 * p + 1);
     const Solution displacements = testing::solved_by("P2", system, control);
     EXPECT_EQ(displacements.status, Status::ok) << displacements.message;
-    u = with_rigid_motion(*problem, displacements.displacement);
+    u = with_rigid_motion(*problem, testing::displacement(displacements));
   }
   double resultant(int component) const {
     double sum = 0;

@@ -126,12 +126,11 @@ struct Solved {
   }
   const Problem& problem() const { return *system.problem; }
   ConstitutiveError error() const {
-    return constitutive_error(system, hybrid.stress, hybrid.F_C, p2.displacement);
+    return constitutive_error(system, hybrid.stress, hybrid.F_C, testing::displacement(p2));
   }
   ConstitutiveError recovered_error() const {
-    return constitutive_error(
-        system, hybrid.stress, hybrid.F_C,
-        recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments));
+    return constitutive_error(system, hybrid.stress, hybrid.F_C,
+                              recovered_displacement(system, hybrid));
   }
 };
 

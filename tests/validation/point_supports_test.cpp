@@ -44,11 +44,8 @@ Scene pulled_bar(const std::vector<PointSupport>& points) {
 
 // P's own, of HYBRID's stresses those that the judge recovers; none of the Airy function's.
 DisplacementField displacement_of(const testing::SolvedScene& solved) {
-  const Solution& own = solved.solution;
-  if (own.displacement.cols() > 0) return with_rigid_motion(solved.problem(), own.displacement);
-  if (own.edge_moments.size() == 0) return {};
-  return with_rigid_motion(solved.problem(), recovered_displacement(solved.system, own.stress,
-                                                                    own.F_C, own.edge_moments));
+  const auto w = displacement_of_answer(solved.system, solved.solution);
+  return w ? with_rigid_motion(solved.problem(), *w) : DisplacementField();
 }
 
 // Pulled evenly along x, with these displacements.

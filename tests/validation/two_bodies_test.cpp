@@ -145,8 +145,7 @@ TEST(TwoBodies, IntervalsOfTheirResultantsHoldWhatAFinerMeshSays) {
       scene.mesh.refine = 0;
       const Solved coarse(scene, two_blocks(7, 10), hybrid_of_degree(degree));
       const auto& [F_C, stress] = std::tie(coarse.solution.F_C, coarse.solution.stress);
-      const DisplacementField u =
-          recovered_displacement(coarse.system, stress, F_C, coarse.solution.edge_moments);
+      const DisplacementField u = recovered_displacement(coarse.system, coarse.solution);
       const std::optional<ContactIntervals> intervals = contact_intervals(
           coarse.system, stress, F_C, u, constitutive_error(coarse.system, stress, F_C, u),
           resultant_lifts(coarse.problem(), degree));
@@ -240,9 +239,7 @@ TEST(TwoBodies, LoadStepsMayChangeTheClearance) {
   path.later_steps[0].contacts = {with_clearance(pair, -0.002)};
   path.later_steps[1].contacts = tight.contacts = {with_clearance(pair, -0.006)};
   const auto resultant_N = [](const ContactSystem& system, const Solution& own) {
-    const Verification seen = own.displacement.cols() > 0 ? verify_displacement(system, own)
-                                                          : verify(system, own, nullptr);
-    return *seen.normal_resultant_N;
+    return *verify(system, own, nullptr).normal_resultant_N;
   };
   for (const char* name : {"HYBRID", "HYBRID:k=2", "3STEPD", "P2"}) {
     std::vector<double> pressed_N;

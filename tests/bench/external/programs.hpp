@@ -12,6 +12,7 @@
 #include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::testing {
 
@@ -40,8 +41,8 @@ inline RightAnswer right_answer(const Scene& scene = {}) {
   const Eigen::VectorXd place = airy_function(system, numbers);  // which of φ is which of x
   right.x.resize(system.n());
   for (Eigen::Index i = 0; i < place.size(); ++i)
-    if (scale(i) != 0) right.x(std::lround(place(i) / scale(i)) - 1) = found.phi(i) / scale(i);
-  const Eigen::Matrix2Xd w = run(select_methods("P2").front(), system, {}).displacement;
+    if (scale(i) != 0) right.x(std::lround(place(i) / scale(i)) - 1) = phi(found)(i) / scale(i);
+  const Eigen::Matrix2Xd w = displacement(run(select_methods("P2").front(), system, {}));
   const auto& vertex = problem->mesh.vertices;
   right.displacement_mm = w.transpose();
   for (Eigen::Index node = 0; node < w.cols(); ++node) {
@@ -53,7 +54,8 @@ inline RightAnswer right_answer(const Scene& scene = {}) {
                                   : Eigen::Vector2d((w.col(a) + 2 * w.col(node) + w.col(b)) / 4);
     right.displacement_mm.row(node) = u + problem->motion.at((vertex[a] + vertex[b]) / 2);
   }
-  const Eigen::Matrix4Xd moments = run(select_methods("HYBRID").front(), system, {}).edge_moments;
+  const Solution hybrid = run(select_methods("HYBRID").front(), system, {});
+  const Eigen::Matrix4Xd moments = std::get<EdgeDisplacements>(hybrid.unknowns).moments;
   right.edge_displacements_mm = moments.transpose();
   for (Eigen::Index edge = 0; edge < moments.cols(); ++edge) {
     const auto [low, high] = problem->edges.vertices[edge];

@@ -63,10 +63,7 @@ struct Solved {
     solution = solve_load_steps(method.solve, *assembled, {}, {});
     system = *assembled;
     EXPECT_EQ(solution.status, Status::ok) << solution.message;
-    if (solution.displacement.cols() > 0)
-      w = solution.displacement;
-    else if (solution.edge_moments.cols() > 0)
-      w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+    w = displacement_of_answer(system, solution);
   }
   ContactPicture contact() const { return contact_picture(system, solution, w); }
   void write(const fs::path& folder, const std::string& name = "a",

@@ -69,21 +69,19 @@ struct Bounds {
 // A step's bounds on one mesh after the other.
 void narrow(const Scene& scene, const Mesh& mesh, std::vector<Bounds>& of_step, int& guaranteed,
             int& judged) {
-  solve_load_steps(
-      select_methods("HYBRID").front(), testing::posed(scene, mesh), {},
-      [&](int step, const ContactSystem& system, const Solution& hybrid) {
-        ASSERT_EQ(hybrid.status, Status::ok) << hybrid.message;
-        const ConstitutiveError error = constitutive_error(
-            system, hybrid.stress, hybrid.F_C,
-            recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments));
-        EXPECT_EQ(error.flaw, "");
-        ++judged;
-        if (!error.guaranteed) return;
-        ++guaranteed;
-        Bounds& bounds = of_step[static_cast<std::size_t>(step)];
-        bounds.below = std::max(bounds.below, error.lower_bound_Nmm);
-        bounds.above = std::min(bounds.above, error.upper_bound_Nmm);
-      });
+  solve_load_steps(select_methods("HYBRID").front(), testing::posed(scene, mesh), {},
+                   [&](int step, const ContactSystem& system, const Solution& hybrid) {
+                     ASSERT_EQ(hybrid.status, Status::ok) << hybrid.message;
+                     const ConstitutiveError error = constitutive_error(
+                         system, hybrid.stress, hybrid.F_C, recovered_displacement(system, hybrid));
+                     EXPECT_EQ(error.flaw, "");
+                     ++judged;
+                     if (!error.guaranteed) return;
+                     ++guaranteed;
+                     Bounds& bounds = of_step[static_cast<std::size_t>(step)];
+                     bounds.below = std::max(bounds.below, error.lower_bound_Nmm);
+                     bounds.above = std::min(bounds.above, error.upper_bound_Nmm);
+                   });
 }
 
 TEST(RandomBounds, OfOneMeshHoldForAnother) {

@@ -87,7 +87,7 @@ ConstitutiveError error_by_displacements(const SolvedScene& own, const Pair& pai
   const SolvedScene other(pair.scene, pair.mesh, displacements_of_degree(k + 1));
   return constitutive_error(
       own.system, own.solution.stress, own.solution.F_C,
-      admissible_displacement(own.system, own.solution.F_C, other.solution.displacement));
+      admissible_displacement(own.system, own.solution.F_C, testing::displacement(other.solution)));
 }
 
 TEST(RandomPairs, TheTotalErrorIsNeitherTooSmallNorFarTooLarge) {

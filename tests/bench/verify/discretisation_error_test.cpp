@@ -19,7 +19,7 @@ struct Solved : testing::Solved {
   Solution displacements = p2();
 
   using testing::Solved::Solved;
-  ConstitutiveError error() const { return error_with(displacements.displacement); }
+  ConstitutiveError error() const { return error_with(testing::displacement(displacements)); }
 };
 
 std::vector<Scene> scenes() {
@@ -155,7 +155,8 @@ TEST(ConstitutiveError, BelowZeroByRoundingItIsThatRounding) {
   const auto error = [&](double excess) {
     Eigen::VectorXd F_C = s.hybrid.F_C;
     for (Eigen::Index t = 1; t < F_C.size(); t += 2) F_C(t) *= 1 + excess;
-    return constitutive_error(s.system, s.hybrid.stress, F_C, s.displacements.displacement);
+    return constitutive_error(s.system, s.hybrid.stress, F_C,
+                              testing::displacement(s.displacements));
   };
   const ConstitutiveError rounded = error(1e-12), wrong = error(1e-6);
   EXPECT_LT(rounded.squared_Nmm(), 0);
@@ -167,7 +168,7 @@ TEST(ConstitutiveError, BelowZeroByRoundingItIsThatRounding) {
 
 TEST(ConstitutiveError, AFieldThatIsNotAdmissibleGuaranteesNothing) {
   const Solved s({.friction = 0}, testing::small_tooth(6, 5));
-  DisplacementField through_the_wall = s.displacements.displacement;
+  DisplacementField through_the_wall = testing::displacement(s.displacements);
   through_the_wall.row(0).array() += 0.01;
   const auto error = [&](const Eigen::VectorXd& F_C, const DisplacementField& u) {
     return constitutive_error(s.system, s.hybrid.stress, F_C, u);
@@ -176,8 +177,8 @@ TEST(ConstitutiveError, AFieldThatIsNotAdmissibleGuaranteesNothing) {
   EXPECT_LT(error(s.hybrid.F_C, through_the_wall).normal_contact_Nmm, 0);
   Eigen::VectorXd pulling = s.hybrid.F_C;
   pulling(0) = 10;
-  EXPECT_FALSE(error(pulling, s.displacements.displacement).guaranteed);
-  DisplacementField no_number = s.displacements.displacement;
+  EXPECT_FALSE(error(pulling, testing::displacement(s.displacements)).guaranteed);
+  DisplacementField no_number = testing::displacement(s.displacements);
   no_number(0, 3) = std::nan("");
   EXPECT_FALSE(error(s.hybrid.F_C, no_number).guaranteed);
   EXPECT_EQ(error(s.hybrid.F_C, no_number).flaw, "stresses or displacements are not finite");
@@ -209,11 +210,14 @@ TEST(DisplacementVerifier, FindsWhatIsSpoiled) {
     spoil(solution);
     return worst_measure(verify_displacement(s.system, solution)).value;
   };
-  for (Eigen::Index node = 0; node < s.displacements.displacement.cols(); ++node)
-    EXPECT_GT(worst([&](Solution& x) { x.displacement(1, node) += 1e-5; }), 1e-4) << node;
+  for (Eigen::Index node = 0; node < testing::displacement(s.displacements).cols(); ++node)
+    EXPECT_GT(worst([&](Solution& x) { std::get<Displacements>(x.unknowns).w(1, node) += 1e-5; }),
+              1e-4)
+        << node;
   for (Eigen::Index i = 0; i < s.displacements.F_C.size(); ++i)
     EXPECT_GT(worst([&](Solution& x) { x.F_C(i) += 1; }), 1e-5) << i;
-  EXPECT_TRUE(std::isnan(worst([](Solution& x) { x.displacement(0, 40) = std::nan(""); })));
+  EXPECT_TRUE(std::isnan(
+      worst([](Solution& x) { std::get<Displacements>(x.unknowns).w(0, 40) = std::nan(""); })));
 }
 
 // Equilibrium and contact law say nothing of a displacement that is right for another one given.
@@ -227,7 +231,8 @@ TEST(DisplacementVerifier, ComparesWithTheGivenDisplacement) {
   const Solved s = stretched(1e-3), other = stretched(1.1e-3);
   const auto worst = [&](const Solved& answer, double printed = 0) {
     Solution solution = answer.displacements;
-    if (printed > 0) solution.program.emplace().print_precision = printed;
+    if (printed > 0)
+      std::get<Displacements>(solution.unknowns).by_program.emplace().print_precision = printed;
     return worst_measure(verify_displacement(s.system, solution)).value;
   };
   EXPECT_LT(worst(s), 1e-10);
@@ -250,8 +255,8 @@ TEST(DisplacementVerifier, LeavesAProgramTheDirectionOfTheForceInACornerOfTwoWal
   const auto vertices = static_cast<Eigen::Index>(problem->mesh.vertices.size());
   const auto unbalanced = [&](const Eigen::Matrix2d& gradient, bool is_of_program) {
     Solution solution;
-    solution.displacement.resize(2, displacement_nodes(*problem));
-    for (Eigen::Index node = 0; node < solution.displacement.cols(); ++node) {
+    DisplacementField w(2, displacement_nodes(*problem));
+    for (Eigen::Index node = 0; node < w.cols(); ++node) {
       Eigen::Vector2d at;
       if (node < vertices) {
         at = problem->mesh.vertices[node];
@@ -259,11 +264,12 @@ TEST(DisplacementVerifier, LeavesAProgramTheDirectionOfTheForceInACornerOfTwoWal
         const auto& [a, b] = problem->edges.vertices[node - vertices];
         at = (problem->mesh.vertices[a] + problem->mesh.vertices[b]) / 2;
       }
-      solution.displacement.col(node) = gradient * at;
+      w.col(node) = gradient * at;
     }
-    solution.stress = stress_of_displacement(*problem, solution.displacement);
+    solution.stress = stress_of_displacement(*problem, w);
     solution.F_C = contact_reactions(*problem, control_points(*problem), solution.stress);
-    if (is_of_program) solution.program.emplace();
+    solution.unknowns = Displacements{w};
+    if (is_of_program) std::get<Displacements>(solution.unknowns).by_program.emplace();
     return *verify_displacement(system, solution).equilibrium_residual;
   };
   const Eigen::Vector3d strain =

@@ -44,8 +44,7 @@ Verification solved(const std::string& mesh, const Scene& scene, const char* nam
       assemble(method, testing::posed(scene, testing::catalogue_mesh(mesh)));
   const Solution solution = run(method, *system, {});
   EXPECT_EQ(solution.status, Status::ok) << solution.message;
-  return method.in_displacements() ? verify_displacement(*system, solution)
-                                   : verify(*system, solution, nullptr);
+  return verify(*system, solution, nullptr);
 }
 
 double relative(double value, double oracle) { return std::abs(value / oracle - 1); }

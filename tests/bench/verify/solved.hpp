@@ -9,6 +9,7 @@
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::testing {
 
@@ -27,7 +28,7 @@ struct Solved {
   explicit Solved(Problem problem, int degree = 1)
       : system(contact_system(std::make_shared<const Problem>(std::move(problem)), degree)),
         hybrid(answered_by(hybrid_of_degree(degree), system)),
-        w(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)) {}
+        w(recovered_displacement(system, hybrid)) {}
   Solved(const Scene& scene, Mesh mesh, int degree = 1)
       : Solved(pose(scene, std::move(mesh)), degree) {}
 
@@ -36,7 +37,7 @@ struct Solved {
   }
   ConstitutiveError error() const { return error_with(w); }
   Solution p2() const { return answered_by("P2", system); }
-  ConstitutiveError error_with_p2() const { return error_with(p2().displacement); }
+  ConstitutiveError error_with_p2() const { return error_with(displacement(p2())); }
 };
 
 }  // namespace airybench::testing
