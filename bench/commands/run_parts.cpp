@@ -211,20 +211,20 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
   std::vector<PosedScene> posed;
   std::map<std::vector<std::string>, std::vector<MeshFile>> meshes;  // by the scenes' settings
   for (const SceneFile& given : scenes)
-    if (const auto& settings = given.model_settings; !meshes.contains(settings))
+    if (const auto settings = given.model_settings(); !meshes.contains(settings))
       meshes.emplace(settings, read_meshes(options.run, options.output.folder, settings));
   for (std::size_t k = 0; k < meshes.begin()->second.size(); ++k)
     for (const SceneFile& given : scenes) {
-      const MeshFile& file = meshes.at(given.model_settings)[k];
-      const auto& [scene, definition, settings] =
-          is_of_catalogue(file.path) ? given : on_other_bodies(given);
+      const MeshFile& file = meshes.at(given.model_settings())[k];
+      const SceneFile on_body = is_of_catalogue(file.path) ? given : on_other_bodies(given);
+      const Scene& scene = on_body.scene;
       const double limit_s = phase_limit_s(options.limits);
       const TimeLimit limit(limit_s,
                             fmt::format("bench: {}/{}: posing it took more than {:g} s (more with "
                                         "--timeout=...,others=SECONDS)",
                                         file.mesh.name, scene.name, limit_s));
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.output.folder),
-                       file.sha256, definition,
+                       file.sha256, on_body.definition(),
                        std::make_shared<const Problem>(pose(scene, file.mesh))});
       note_out_of_reach(posed.back());
       note_matching(posed.back());

@@ -13,7 +13,7 @@ namespace {
 // Without the rounding of a mesher.
 double to_pm(double mm) { return std::round(mm * 1e9) / 1e9 + 0.; }
 
-Json rounded(const Eigen::Vector2d& mm) { return {to_pm(mm.x()), to_pm(mm.y())}; }
+Eigen::Vector2d rounded(const Eigen::Vector2d& mm) { return {to_pm(mm.x()), to_pm(mm.y())}; }
 
 struct Sums {
   Eigen::Vector2d normal = {0, 0}, moment = {0, 0};  // integrals of n and x over the length
@@ -111,12 +111,11 @@ std::optional<Circle> common_circle(const std::vector<FaceCurve>& curves) {
   return first;
 }
 
-Json face_on(const Circle& circle) {
-  return {{"circle",
-           {{"centre_mm", rounded(circle.centre_mm)}, {"radius_mm", to_pm(circle.radius_mm)}}}};
+CircularWall face_on(const Circle& circle) {
+  return {rounded(circle.centre_mm), to_pm(circle.radius_mm), {}};
 }
 
-Json wall_at(const std::vector<FaceCurve>& curves) {
+Wall wall_at(const std::vector<FaceCurve>& curves) {
   constexpr double closed = 1e-3;
   const Sums sums = sums_of(curves);
   const Eigen::Vector2d middle = sums.moment / sums.length;
@@ -127,8 +126,8 @@ Json wall_at(const std::vector<FaceCurve>& curves) {
   if (is_closed || is_hollow) {
     const bool is_disc = is_closed && sums.area > 0;
     const Circle round = face ? *face : Circle{middle, radius_touching(curves, middle, is_disc)};
-    Json wall = face_on(round);
-    wall["circle"]["bodies"] = is_disc ? "inside" : "outside";
+    CircularWall wall = face_on(round);
+    wall.bodies = is_disc ? CircularWall::Bodies::inside : CircularWall::Bodies::outside;
     return wall;
   }
   // Sides that look in opposite directions have no wall in common: that of the first.
@@ -138,7 +137,7 @@ Json wall_at(const std::vector<FaceCurve>& curves) {
   for (const FaceCurve& curve : curves)
     if (const Eigen::Vector2d p = farthest_of(curve, outward); p.dot(outward) > point.dot(outward))
       point = p;
-  return {{"flat", {{"point_mm", rounded(point)}, {"normal", rounded(-outward)}}}};
+  return FlatWall{rounded(point), rounded(-outward)};
 }
 
 bool face_each_other(const std::vector<FaceCurve>& one, const std::vector<FaceCurve>& other) {

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "assembly/problem/scene.hpp"
-#include "bench/records/json.hpp"
 #include "mesh/circle.hpp"
 #include "mesh/mesh.hpp"
 
@@ -31,12 +30,12 @@ std::optional<Circle> circle_of(const std::vector<Walk>& walks);
 // The circle of all these curves, if they have one in common.
 std::optional<Circle> common_circle(const std::vector<FaceCurve>& curves);
 
-// {"circle": {...}}, as a scene's "face".
-Json face_on(const Circle& circle);
+// A scene's "face".
+CircularWall face_on(const Circle& circle);
 
 // A scene's "wall" that the curves just touch: a pin in a hole, a socket around a disc, else a flat
 // wall against their mean outward normal.
-Json wall_at(const std::vector<FaceCurve>& curves);
+Wall wall_at(const std::vector<FaceCurve>& curves);
 
 // Whether a third of the edges of one have an edge of the other in front of or behind them, facing
 // them, no farther than the longer of both edges.

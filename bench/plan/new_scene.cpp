@@ -14,6 +14,7 @@
 #include "assembly/problem/scene.hpp"
 #include "bench/plan/contact_faces.hpp"
 #include "bench/plan/mesh_files.hpp"
+#include "bench/plan/scene_file.hpp"
 #include "bench/records/json.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/model_format.hpp"
@@ -23,14 +24,6 @@
 
 namespace airybench {
 namespace {
-
-// An object with a line for each key.
-std::string in_lines(const Json& object) {
-  std::vector<std::string> lines;
-  for (const auto& [key, value] : object.items())
-    lines.push_back(fmt::format("    {}: {}", json_text(key), json_text(value)));
-  return fmt::format("{{\n{}\n  }}", fmt::join(lines, ",\n"));
-}
 
 std::string length_unit_of(const std::vector<std::string>& settings) {
   const std::string setting = std::string(length_unit_setting.option) + "=";
@@ -124,43 +117,45 @@ std::vector<std::array<std::string, 2>> facing_faces(const std::vector<NamedCurv
 }
 
 // The groups of a face: one, or one for each shape.
-Json labels_of(const std::vector<NamedCurve>& curves, const std::string& face) {
+std::vector<std::string> labels_of(const std::vector<NamedCurve>& curves, const std::string& face) {
   std::set<std::string> labels;
   for (const NamedCurve& curve : curves)
     if (curve.face == face) labels.insert(curve.label);
-  return labels.size() == 1 ? Json(*labels.begin()) : Json(labels);
+  return {labels.begin(), labels.end()};
 }
 
 // whole_face: none where it presses on another body.
-Json values_to_fill_in(const std::string& label, const std::vector<FaceCurve>& curves,
-                       const std::vector<FaceCurve>& whole_face) {
+BoundaryValues values_to_fill_in(const std::string& label, const std::vector<FaceCurve>& curves,
+                                 const std::vector<FaceCurve>& whole_face) {
+  BoundaryValues values;
   switch (parse_boundary_label(label)->role) {
     case BoundaryRole::displacement:
-      return {{"support", "full"}};  // a displacement would take the place of the scene's
+      values.support = BoundaryValues::Support::full;  // a displacement would replace the scene's
+      return values;
     case BoundaryRole::force:
-      return {{"traction_MPa", {0, 0}}};
+      values.traction_MPa.emplace().values.fill({0, 0});
+      return values;
     case BoundaryRole::contact:
       break;
   }
-  Json values = Json::object();
-  if (!whole_face.empty())
-    values = {{"friction", Scene().friction}, {"clearance_mm", 0}, {"wall", wall_at(whole_face)}};
-  if (const std::optional<Circle> circle = common_circle(curves)) values["face"] = face_on(*circle);
+  if (!whole_face.empty()) values.contact = {Scene().friction, 0, wall_at(whole_face), {}};
+  if (const std::optional<Circle> circle = common_circle(curves))
+    values.contact.face = face_on(*circle);
   return values;
 }
 
-void note_missing_roles(const Json& boundary, const std::string& name) {
-  std::set<BoundaryRole> there;
-  for (const auto& group : boundary.items()) there.insert(parse_boundary_label(group.key())->role);
+void note_missing_roles(const BoundaryConditions& boundary, const std::string& name) {
+  std::set<BoundaryRole> present;
+  for (const auto& [label, values] : boundary) present.insert(parse_boundary_label(label)->role);
   const auto note = [&](BoundaryRole role, const char* meaning) {
-    if (there.contains(role)) return;
+    if (present.contains(role)) return;
     const std::string_view word = boundary_role_names[static_cast<std::size_t>(role)];
     std::cerr << fmt::format(
         "note: {}: no curve has the role {}: {} (--role=CURVE={} next to --new-scene gives it)\n",
         name, word, meaning, word);
   };
   note(BoundaryRole::displacement,
-       there.contains(BoundaryRole::contact) ? "contact alone holds it" : "it is held nowhere");
+       present.contains(BoundaryRole::contact) ? "contact alone holds it" : "it is held nowhere");
   note(BoundaryRole::contact, "it touches nothing");
 }
 
@@ -172,42 +167,34 @@ std::string new_scene_text(const std::filesystem::path& model,
     if (const std::string of_deck = scene_of_deck(model, settings); !of_deck.empty())
       return of_deck;
   const Json shown = parse_json(curves_of_model(model, settings));
-  const Material material;
-  const Json of_material = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
-  Json roles = Json::object(), boundary = Json::object(), materials = Json::object();
   const std::vector<NamedCurve> curves = curves_of(shown);
-  Json contacts = Json::array();
+  SceneFile file;
+  file.length_unit = length_unit_of(settings);
+  file.keys = {"length_unit",          "plane",    "materials", "displacement_mm",
+               "body_force_N_per_mm3", "boundary", "contacts"};
+  Scene& scene = file.scene;
+  scene.displacement_mm = {0, 0};
   std::set<std::string> paired;
   for (const auto& [one, other] : facing_faces(curves)) {
-    contacts.push_back(
-        {{"between", Json::array({labels_of(curves, one), labels_of(curves, other)})},
-         {"friction", Scene().friction},
-         {"clearance_mm", 0}});
+    scene.contacts.push_back(
+        {{labels_of(curves, one), labels_of(curves, other)}, scene.friction, 0});
     paired.insert({one, other});
   }
   for (const NamedCurve& curve : curves) {
-    if (std::ranges::find(curve.names, curve.label) == curve.names.end())
-      roles[curve.names.empty() || curve.label != curve.face ? curve.number : curve.names.front()] =
-          curve.label;
-    if (!boundary.contains(curve.label))
-      boundary[curve.label] = values_to_fill_in(
+    if (std::ranges::find(curve.names, curve.label) == curve.names.end()) {
+      const bool has_name = !curve.names.empty() && curve.label == curve.face;
+      file.roles.emplace_back(has_name ? curve.names.front() : curve.number, curve.label);
+    }
+    if (!scene.boundary.contains(curve.label))
+      scene.boundary[curve.label] = values_to_fill_in(
           curve.label, shapes_of(curves, &NamedCurve::label, curve.label),
           paired.contains(curve.face) ? std::vector<FaceCurve>()
                                       : shapes_of(curves, &NamedCurve::face, curve.face));
   }
-  for (const Json& body : shown["bodies"]) materials[body.get<std::string>()] = of_material;
-  note_missing_roles(boundary, model_name(model) + ".json");
-  std::vector<std::string> lines = {
-      fmt::format("\"length_unit\": {}", json_text(length_unit_of(settings))),
-      "\"plane\": \"strain\"",
-      fmt::format("\"materials\": {}", in_lines(materials)),
-      "\"displacement_mm\": [0, 0]",
-      "\"body_force_N_per_mm3\": [0, 0]",
-      fmt::format("\"boundary\": {}", in_lines(boundary))};
-  if (!contacts.empty()) lines.push_back(fmt::format("\"contacts\": {}", json_text(contacts)));
-  if (!roles.empty())
-    lines.insert(lines.begin() + 1, fmt::format("\"roles\": {}", in_lines(roles)));
-  return fmt::format("{{\n  {}\n}}\n", fmt::join(lines, ",\n  "));
+  if (!file.roles.empty()) file.keys.insert("roles");
+  for (const Json& body : shown["bodies"]) scene.materials[body.get<std::string>()] = {};
+  note_missing_roles(scene.boundary, model_name(model) + ".json");
+  return file.text();
 }
 
 std::string write_new_scene(const std::filesystem::path& model,

@@ -4,13 +4,16 @@
 
 #include "bench/records/case_name.hpp"
 #include "bench/records/json_value.hpp"
+#include "mesh/model_settings.hpp"
 #include "support/file_text.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
 
-void read(const JsonValue& value, SceneFile& file);  // scene_keys.cpp
+// scene_keys.cpp
+void read_keys(const JsonValue& value, SceneFile& file);
+Json scene_json(SceneFile file);
 
 namespace {
 
@@ -51,6 +54,7 @@ Json points_of(const std::filesystem::path& file, const std::string& place) {
   return points;
 }
 
+// The points of a polyline's file stand for its name: a record has all of its scene.
 void inline_polylines(Json& json, const std::filesystem::path& scene_file) {
   if (!json.is_structured()) return;
   for (auto& [key, value] : json.items())
@@ -63,15 +67,41 @@ void inline_polylines(Json& json, const std::filesystem::path& scene_file) {
 SceneFile checked_scene(const Json& json, const std::string& place) {
   SceneFile file;
   file.scene.source = place;
-  file.definition = json_text(json);
-  read(JsonValue(place, "", json), file);
-  if (json.contains("wall") && !json.value("crown_radius_mm", Json()).is_null())
+  read_keys(JsonValue(place, "", json), file);
+  for (const auto& key : json.items()) file.keys.insert(key.key());
+  if (file.scene.wall && file.keys.contains("crown_radius_mm") && file.scene.crown_radius_mm)
     throw FileError(place + ": wall and crown_radius_mm (allowed: one of them)");
   check_values(file.scene);
   return file;
 }
 
 }  // namespace
+
+std::vector<std::string> SceneFile::model_settings() const {
+  std::vector<std::string> settings;
+  for (const auto& [curves, label] : roles)
+    settings.push_back(fmt::format("{}={}={}", role_setting.option, curves, label));
+  if (length_unit != "mm")
+    settings.push_back(fmt::format("{}={}", length_unit_setting.option, length_unit));
+  return settings;
+}
+
+std::string SceneFile::definition() const { return json_text(scene_json(*this)); }
+
+std::string SceneFile::text() const {
+  const Json json = scene_json(*this);
+  std::vector<std::string> lines;
+  for (const auto& [key, value] : json.items()) {
+    std::vector<std::string> inner;
+    if (value.is_object())
+      for (const auto& [name, of_name] : value.items())
+        inner.push_back(fmt::format("    {}: {}", json_text(name), json_text(of_name)));
+    lines.push_back(fmt::format(
+        "  {}: {}", json_text(key),
+        inner.empty() ? json_text(value) : fmt::format("{{\n{}\n  }}", fmt::join(inner, ",\n"))));
+  }
+  return fmt::format("{{\n{}\n}}\n", fmt::join(lines, ",\n"));
+}
 
 SceneFile scene_file_of(const std::string& text, const std::string& place) {
   return checked_scene(json_of_file(place, text), place);
@@ -100,19 +130,14 @@ SceneFile in_equal_steps(SceneFile file, int steps) {
   if (file.scene.equal_steps != 1 || !file.scene.later_steps.empty())
     throw FileError(
         fmt::format("{}: load_steps and --steps (allowed: one of them)", file.scene.source));
-  Json json = parse_json(file.definition);
-  json["load_steps"] = steps;
   file.scene.equal_steps = steps;
-  file.definition = json_text(json);
+  file.keys.insert("load_steps");
   return file;
 }
 
 SceneFile on_other_bodies(SceneFile file) {
-  Json json = parse_json(file.definition);
-  if (json.contains("crown_radius_mm") || json.contains("wall")) return file;
+  if (file.scene.wall || !file.keys.insert("crown_radius_mm").second) return file;
   file.scene.crown_radius_mm.reset();
-  json["crown_radius_mm"] = nullptr;
-  file.definition = json_text(json);
   return file;
 }
 

@@ -1,5 +1,6 @@
-// Tables of a scene file's keys: the key's name, the member that it sets, its range.
-// check_values() (assembly/problem/scene.hpp) checks the ranges that hold for any scene.
+// Tables of a scene file's keys: the key's name, the member that it stands for, its range. Reader
+// and writer go by them. check_values() (assembly/problem/scene.hpp) checks the ranges that hold
+// for any scene.
 #include "assembly/problem/scene.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/json_value.hpp"
@@ -13,9 +14,35 @@ constexpr int most = 1'000'000;  // limit of counts
 
 enum class Curve { obstacle, face };
 
+struct KeyTable {
+  std::vector<JsonKey> keys;
+  std::string all = {};  // what is allowed where every key is required
+};
+
 }  // namespace
 
-// Argument-dependent lookup must find read(), so no overload is in the unnamed namespace.
+// Argument-dependent lookup must find read(), put() and table(), so no overload is in the unnamed
+// namespace.
+
+template <typename T>
+concept HasTable = requires(T& target) {
+  { table(target) } -> std::same_as<KeyTable>;
+};
+template <HasTable T>
+void read(const JsonValue& value, T& target) {
+  const KeyTable of_target = table(target);
+  value.object(of_target.keys, of_target.all);
+}
+template <HasTable T>
+void put(JsonSlot& slot, T value) {
+  slot.json = written(table(value).keys);
+}
+// Without the keys that have their defaults.
+template <HasTable T>
+Json changes(T value) {
+  T preset;
+  return changes(table(value).keys, table(preset).keys);
+}
 
 static void read(const JsonValue& value, Eigen::Vector2d& vector) {
   const Json& json = value.json;
@@ -23,26 +50,41 @@ static void read(const JsonValue& value, Eigen::Vector2d& vector) {
     value.fail("two numbers [x, y]");
   vector = {json[0].get<double>(), json[1].get<double>()};
 }
+static void put(JsonSlot& slot, const Eigen::Vector2d& vector) {
+  slot.json = {vector.x(), vector.y()};
+}
 
-static void read(const JsonValue& value, Material& material) {
-  value.object({key("young_MPa", material.young_MPa), key("poisson", material.poisson)});
+static KeyTable table(Material& material) {
+  return {{key("young_MPa", material.young_MPa), key("poisson", material.poisson)}};
 }
 
 template <typename Value>
+KeyTable linear_table(LinearValue<Value>& linear) {
+  return {{key("at_mm", linear.at_mm), key("values", linear.values)},
+          "{\"at_mm\": [[x, y], [x, y]], \"values\": [..., ...]}, both given"};
+}
+template <typename Value>
 void read(const JsonValue& value, LinearValue<Value>& linear) {
   if (value.json.is_object()) {
-    value.object({key("at_mm", linear.at_mm), key("values", linear.values)},
-                 "{\"at_mm\": [[x, y], [x, y]], \"values\": [..., ...]}, both given");
+    const KeyTable of_linear = linear_table(linear);
+    value.object(of_linear.keys, of_linear.all);
     return;
   }
   Value constant{};
   read(value, constant);
   linear.values.fill(constant);
 }
+template <typename Value>
+void put(JsonSlot& slot, LinearValue<Value> linear) {
+  if (linear.values[0] == linear.values[1])
+    put(slot, linear.values[0]);
+  else
+    slot.json = written(linear_table(linear).keys);
+}
 
-static void read(const JsonValue& value, FlatWall& wall) {
-  value.object({key("point_mm", wall.point_mm), key("normal", wall.normal)},
-               "{\"point_mm\": [x, y], \"normal\": [x, y]}, both given");
+static KeyTable table(FlatWall& wall) {
+  return {{key("point_mm", wall.point_mm), key("normal", wall.normal)},
+          "{\"point_mm\": [x, y], \"normal\": [x, y]}, both given"};
 }
 
 static void read(const JsonValue& value, PolylineWall& wall) {
@@ -50,219 +92,285 @@ static void read(const JsonValue& value, PolylineWall& wall) {
   wall.points_mm.resize(value.json.size());
   for (std::size_t k = 0; k < wall.points_mm.size(); ++k) read(value.item(k), wall.points_mm[k]);
 }
+static void put(JsonSlot& slot, const PolylineWall& wall) { slot.json = json_list(wall.points_mm); }
 
-static void read_circle(const JsonValue& value, Curve curve, CircularWall& wall) {
+static KeyTable circle_table(CircularWall& wall, Curve curve) {
   using enum CircularWall::Bodies;
-  std::vector<JsonKey> keys = {key("centre_mm", wall.centre_mm),
-                               positive("radius_mm", wall.radius_mm)};
-  if (curve == Curve::face) {
-    value.object(keys, "{\"centre_mm\": [x, y], \"radius_mm\": ...}, both given");
-    return;
-  }
-  keys.push_back(choice("bodies", wall.bodies, {{"inside", inside}, {"outside", outside}}));
-  value.object(keys,
-               "{\"centre_mm\": [x, y], \"radius_mm\": ..., \"bodies\": \"inside\" or "
-               "\"outside\"}, all given");
+  KeyTable circle = {{key("centre_mm", wall.centre_mm), positive("radius_mm", wall.radius_mm)},
+                     "{\"centre_mm\": [x, y], \"radius_mm\": ...}, both given"};
+  if (curve == Curve::face) return circle;
+  circle.keys.push_back(choice("bodies", wall.bodies, {{"inside", inside}, {"outside", outside}}));
+  circle.all =
+      "{\"centre_mm\": [x, y], \"radius_mm\": ..., \"bodies\": \"inside\" or \"outside\"}, all "
+      "given";
+  return circle;
 }
 
 static JsonKey curve_key(const char* name, std::optional<Wall>& target, Curve curve) {
-  return {name, [&target, curve](const JsonValue& value) {
-            Wall wall;
-            value.object(
-                {{"flat", [&](const JsonValue& v) { read(v, wall.emplace<FlatWall>()); }},
-                 {"circle",
-                  [&](const JsonValue& v) { read_circle(v, curve, wall.emplace<CircularWall>()); }},
-                 {"polyline", [&](const JsonValue& v) { read(v, wall.emplace<PolylineWall>()); }}});
-            if (value.json.size() != 1) value.fail("one of flat, circle, polyline");
-            target = std::move(wall);
-          }};
+  const auto take = [&target, curve](const JsonValue& value) {
+    Wall wall;
+    value.object(
+        {{"flat", [&](const JsonValue& v) { read(v, wall.emplace<FlatWall>()); }},
+         {"circle",
+          [&](const JsonValue& v) {
+            const KeyTable circle = circle_table(wall.emplace<CircularWall>(), curve);
+            v.object(circle.keys, circle.all);
+          }},
+         {"polyline", [&](const JsonValue& v) { read(v, wall.emplace<PolylineWall>()); }}});
+    if (value.json.size() != 1) value.fail("one of flat, circle, polyline");
+    target = std::move(wall);
+  };
+  const auto give = [&target, curve]() -> Json {
+    if (!target) return Json::value_t::discarded;
+    if (const auto* flat = std::get_if<FlatWall>(&*target)) return {{"flat", written(*flat)}};
+    if (auto* circle = std::get_if<CircularWall>(&*target))
+      return {{"circle", written(circle_table(*circle, curve).keys)}};
+    return {{"polyline", written(std::get<PolylineWall>(*target))}};
+  };
+  return {.name = name, .take = take, .give = give};
+}
+
+static KeyTable table(BoundaryValues& values) {
+  using enum BoundaryValues::Support;
+  ContactValues& contact = values.contact;
+  return {{key("traction_MPa", values.traction_MPa), key("pressure_MPa", values.pressure_MPa),
+           key("displacement_mm", values.displacement_mm),
+           choice("support", values.support, {{"full", full}, {"normal", normal}}),
+           key("friction", contact.friction), key("clearance_mm", contact.clearance_mm),
+           curve_key("wall", contact.wall, Curve::obstacle),
+           curve_key("face", contact.face, Curve::face)}};
+}
+
+template <typename T>
+void put(JsonSlot& slot, const std::map<std::string, T>& values) {
+  for (const auto& [name, value] : values) {
+    if (slot.json.is_discarded()) slot.json = Json::object();
+    slot.json[name] = written(value);
+  }
 }
 
 static void read(const JsonValue& value, BoundaryConditions& conditions) {
-  using enum BoundaryValues::Support;
-  value.each("an object with a boundary group as each key", [&](const std::string& label,
-                                                                const JsonValue& of_group) {
-    BoundaryValues& values = conditions[label];
-    ContactValues& contact = values.contact;
-    of_group.object({key("traction_MPa", values.traction_MPa),
-                     key("pressure_MPa", values.pressure_MPa),
-                     key("displacement_mm", values.displacement_mm),
-                     choice("support", values.support, {{"full", full}, {"normal", normal}}),
-                     key("friction", contact.friction), key("clearance_mm", contact.clearance_mm),
-                     curve_key("wall", contact.wall, Curve::obstacle),
-                     curve_key("face", contact.face, Curve::face)});
-  });
+  value.each("an object with a boundary group as each key",
+             [&](const std::string& label, const JsonValue& of_group) {
+               read(of_group, conditions[label]);
+             });
 }
 
-static void read(const JsonValue& value, PointSupport& point) {
-  bool is_placed = false;
-  value.object(
-      {{"at_mm",
-        [&](const JsonValue& at) {
-          read(at, point.at_mm);
-          is_placed = true;
-        }},
-       {"displacement_mm",
-        [&](const JsonValue& both) {
-          const Json& json = both.json;
-          const auto is_component = [](const Json& x) { return x.is_number() || x.is_null(); };
-          if (!json.is_array() || json.size() != 2 || !std::ranges::all_of(json, is_component))
-            both.fail("two of numbers and null, [x, y]");
-          for (std::size_t k = 0; k < 2; ++k)
-            if (!json[k].is_null()) point.displacement_mm[k] = json[k].get<double>();
-        }},
-       key("body", point.body)});
-  if (!is_placed) value.fail("an object with at_mm, [x, y], and displacement_mm");
+static KeyTable table(PointSupport& point) {
+  auto& displacement_mm = point.displacement_mm;
+  const auto take = [&displacement_mm](const JsonValue& both) {
+    const Json& json = both.json;
+    const auto is_component = [](const Json& x) { return x.is_number() || x.is_null(); };
+    if (!json.is_array() || json.size() != 2 || !std::ranges::all_of(json, is_component))
+      both.fail("two of numbers and null, [x, y]");
+    for (std::size_t k = 0; k < 2; ++k)
+      if (!json[k].is_null()) displacement_mm[k] = json[k].get<double>();
+  };
+  const auto give = [&displacement_mm] {
+    Json both = Json::array();
+    for (const std::optional<double>& u : displacement_mm) both.push_back(u ? Json(*u) : Json());
+    return both;
+  };
+  return {{required(key("at_mm", point.at_mm)),
+           {.name = "displacement_mm", .take = take, .give = give},
+           key("body", point.body)}};
+}
+static void put(JsonSlot& slot, const PointSupport& point) { slot.json = changes(point); }
+
+static KeyTable table(Grading& grading) {
+  return {{key("at_mm", grading.at_mm), key("ratio", grading.ratio)},
+          "{\"at_mm\": [x, y], \"ratio\": ...}, both given"};
 }
 
-static void read(const JsonValue& value, Grading& grading) {
-  value.object({key("at_mm", grading.at_mm), key("ratio", grading.ratio)},
-               "{\"at_mm\": [x, y], \"ratio\": ...}, both given");
+static KeyTable table(Slivers& slivers) {
+  return {{key("aspect", slivers.aspect), whole("count", slivers.count, 1, most)},
+          "{\"aspect\": ..., \"count\": ...}, both given"};
 }
 
-static void read(const JsonValue& value, Slivers& slivers) {
-  value.object({key("aspect", slivers.aspect), whole("count", slivers.count, 1, most)},
-               "{\"aspect\": ..., \"count\": ...}, both given");
-}
-
-static void read(const JsonValue& value, MeshTransform& mesh) {
-  value.object(
+static KeyTable table(MeshTransform& mesh) {
+  return {
       {whole("refine", mesh.refine, 0, most_refinements), key("grade", mesh.grade),
        key("slivers", mesh.slivers), positive("scale", mesh.scale), key("stretch", mesh.stretch),
        key("move_mm", mesh.move_mm), whole("keep_contact_edges", mesh.keep_contact_edges, 0, most),
        whole("keep_displacement_edges", mesh.keep_displacement_edges, 1, most),
-       whole("keep_force_edges", mesh.keep_force_edges, 0, most), key("polygon", mesh.polygon)});
+       whole("keep_force_edges", mesh.keep_force_edges, 0, most), key("polygon", mesh.polygon)}};
 }
+static void put(JsonSlot& slot, const MeshTransform& mesh) { slot.json = changes(mesh); }
 
 template <typename Item>
 static JsonKey list(const char* name, std::vector<Item>& items, const Item& preset,
                     const char* allowed) {
-  return {name, [&items, preset, allowed](const JsonValue& value) {
-            if (!value.json.is_array() || value.json.empty()) value.fail(allowed);
-            items.assign(value.json.size(), preset);
-            for (std::size_t k = 0; k < items.size(); ++k) read(value.item(k), items[k]);
-          }};
+  const auto take = [&items, preset, allowed](const JsonValue& value) {
+    if (!value.json.is_array() || value.json.empty()) value.fail(allowed);
+    items.assign(value.json.size(), preset);
+    for (std::size_t k = 0; k < items.size(); ++k) read(value.item(k), items[k]);
+  };
+  const auto give = [&items] {
+    return items.empty() ? Json(Json::value_t::discarded) : json_list(items);
+  };
+  return {.name = name, .take = take, .give = give};
 }
 
-static void read(const JsonValue& value, ContactPair& pair) {
-  constexpr const char* allowed = "two groups, or lists of them: [\"contact:a\", \"contact:b\"]";
-  value.object({{"between",
-                 [&](const JsonValue& both) {
-                   if (!both.json.is_array() || both.json.size() != 2) both.fail(allowed);
-                   for (std::size_t side = 0; side < 2; ++side) {
-                     const JsonValue groups = both.item(side);
-                     std::vector<std::string>& labels = pair.between[side];
-                     if (groups.json.is_array() && !groups.json.empty()) {
-                       labels.resize(groups.json.size());
-                       for (std::size_t k = 0; k < labels.size(); ++k)
-                         read(groups.item(k), labels[k]);
-                     } else {
-                       read(groups, labels.emplace_back());
-                     }
-                   }
-                 }},
-                key("friction", pair.friction),
-                key("clearance_mm", pair.clearance_mm)});
-  if (pair.between[0].empty()) value.fail(std::string("between: ") + allowed);
+static KeyTable table(ContactPair& pair) {
+  auto& between = pair.between;
+  const auto take = [&between](const JsonValue& both) {
+    if (!both.json.is_array() || both.json.size() != 2)
+      both.fail("two groups, or lists of them: [\"contact:a\", \"contact:b\"]");
+    for (std::size_t side = 0; side < 2; ++side) {
+      const JsonValue groups = both.item(side);
+      std::vector<std::string>& labels = between[side];
+      if (groups.json.is_array() && !groups.json.empty()) {
+        labels.resize(groups.json.size());
+        for (std::size_t k = 0; k < labels.size(); ++k) read(groups.item(k), labels[k]);
+      } else {
+        read(groups, labels.emplace_back());
+      }
+    }
+  };
+  const auto give = [&between] {
+    Json both = Json::array();
+    for (const std::vector<std::string>& labels : between)
+      both.push_back(labels.size() == 1 ? Json(labels.front()) : Json(labels));
+    return both;
+  };
+  return {{required({.name = "between", .take = take, .give = give}),
+           key("friction", pair.friction), key("clearance_mm", pair.clearance_mm)}};
 }
 
 static JsonKey pairs(const char* name, std::vector<ContactPair>& contacts) {
   return list(name, contacts, ContactPair(), "a list of pairs {\"between\": [..., ...]}");
 }
 
-static void read_layers(const JsonValue& value, Scene& scene) {
+static std::vector<JsonKey> layer_keys(Scene& scene) {
   Layers& layers = scene.layers;
-  value.object({key("normal", layers.normal), whole("count", layers.count, 1, most_layers),
-                list("interfaces_mm", layers.interfaces_mm, 0., "a list of numbers, ascending"),
-                list("materials", scene.layer_materials, scene.material, "a list of materials")});
-  if (value.json.contains("count") == value.json.contains("interfaces_mm"))
-    value.fail("either count or interfaces_mm");
+  return {key("normal", layers.normal), whole("count", layers.count, 1, most_layers),
+          list("interfaces_mm", layers.interfaces_mm, 0., "a list of numbers, ascending"),
+          list("materials", scene.layer_materials, scene.material, "a list of materials")};
 }
 
-static void read(const JsonValue& value, LoadStep& step) {
-  value.object({key("displacement_mm", step.displacement_mm),
-                key("body_force_N_per_mm3", step.body_force_N_per_mm3),
-                key("clearance_mm", step.clearance_mm), key("boundary", step.boundary),
-                pairs("contacts", step.contacts)});
+static JsonKey layers_key(Scene& scene) {
+  const auto take = [&scene](const JsonValue& value) {
+    value.object(layer_keys(scene));
+    if (value.json.contains("count") == value.json.contains("interfaces_mm"))
+      value.fail("either count or interfaces_mm");
+  };
+  const auto give = [&scene] {
+    Scene preset;
+    return changes(layer_keys(scene), layer_keys(preset));
+  };
+  return {.name = "layers", .take = take, .give = give};
 }
 
-static void read_load_steps(const JsonValue& value, Scene& scene) {
-  const Json& json = value.json;
-  if (json.is_number_integer() && json >= 1 && json <= most_load_steps) {
-    scene.equal_steps = json.get<int>();
-    return;
-  }
-  if (!json.is_array() || json.empty() || json.size() >= most_load_steps)
-    value.fail(fmt::format("a whole number from 1 to {}, or a list of 1 to {} steps",
-                           most_load_steps, most_load_steps - 1));
-  scene.later_steps.resize(json.size());
-  for (std::size_t k = 0; k < json.size(); ++k)
-    read(value.at(std::to_string(k + 1), json[k]), scene.later_steps[k]);
+static KeyTable table(LoadStep& step) {
+  return {{key("displacement_mm", step.displacement_mm),
+           key("body_force_N_per_mm3", step.body_force_N_per_mm3),
+           key("clearance_mm", step.clearance_mm), key("boundary", step.boundary),
+           pairs("contacts", step.contacts)}};
 }
 
-static void add(const ModelSetting& setting, const std::string& value, SceneFile& file) {
-  file.model_settings.push_back(fmt::format("{}={}", setting.option, value));
+static JsonKey load_steps_key(Scene& scene) {
+  const auto take = [&scene](const JsonValue& value) {
+    const Json& json = value.json;
+    if (json.is_number_integer() && json >= 1 && json <= most_load_steps) {
+      scene.equal_steps = json.get<int>();
+      return;
+    }
+    if (!json.is_array() || json.empty() || json.size() >= most_load_steps)
+      value.fail(fmt::format("a whole number from 1 to {}, or a list of 1 to {} steps",
+                             most_load_steps, most_load_steps - 1));
+    scene.later_steps.resize(json.size());
+    for (std::size_t k = 0; k < json.size(); ++k)
+      read(value.at(std::to_string(k + 1), json[k]), scene.later_steps[k]);
+  };
+  const auto give = [&scene] {
+    return scene.later_steps.empty() ? Json(scene.equal_steps) : json_list(scene.later_steps);
+  };
+  return {.name = "load_steps", .take = take, .give = give};
 }
 
-static void read_roles(const JsonValue& value, SceneFile& file) {
-  value.each("an object with a curve's name or number, numbers \"1-4\", or \"rest\" as each key",
-             [&](const std::string& curves, const JsonValue& role) {
-               const std::string label =
-                   role.json.is_string() ? role.json.get<std::string>() : std::string();
-               if (!parse_boundary_label(label)) role.fail(std::string(boundary_labels_allowed));
-               add(role_setting, fmt::format("{}={}", curves, label), file);
-             });
+static JsonKey crown_key(std::optional<double>& radius_mm) {
+  const auto take = [&radius_mm](const JsonValue& value) {
+    radius_mm.reset();
+    if (!value.json.is_null()) read(value, radius_mm);
+  };
+  const auto give = [&radius_mm] { return radius_mm ? Json(*radius_mm) : Json(); };
+  return {.name = "crown_radius_mm", .take = take, .give = give};
 }
 
-static void read_length_unit(const JsonValue& value, SceneFile& file) {
-  constexpr std::array<std::string_view, 3> units = {"mm", "m", "inch"};
-  const std::string_view unit = value.one_of(units, {}, ", of a model's lengths");
-  if (unit != "mm") add(length_unit_setting, std::string(unit), file);
+static JsonKey materials_key(Scene& scene) {
+  const auto take = [&scene](const JsonValue& value) {
+    value.each("an object with a body's name as each key",
+               [&](const std::string& body, const JsonValue& of_body) {
+                 read(of_body, scene.materials[body] = scene.material);
+               });
+  };
+  return {.name = "materials", .take = take, .give = [&scene] { return written(scene.materials); }};
 }
 
-void read(const JsonValue& value, SceneFile& file) {
+static JsonKey roles_key(std::vector<std::pair<std::string, std::string>>& roles) {
+  const auto take = [&roles](const JsonValue& value) {
+    value.each("an object with a curve's name or number, numbers \"1-4\", or \"rest\" as each key",
+               [&](const std::string& curves, const JsonValue& role) {
+                 const std::string label =
+                     role.json.is_string() ? role.json.get<std::string>() : std::string();
+                 if (!parse_boundary_label(label)) role.fail(std::string(boundary_labels_allowed));
+                 roles.emplace_back(curves, label);
+               });
+  };
+  const auto give = [&roles] {
+    Json of_curves = Json::object();
+    for (const auto& [curves, label] : roles) of_curves[curves] = label;
+    return of_curves;
+  };
+  return {.name = "roles", .take = take, .give = give};
+}
+
+static JsonKey length_unit_key(std::string& unit) {
+  const auto take = [&unit](const JsonValue& value) {
+    constexpr std::array<std::string_view, 3> units = {"mm", "m", "inch"};
+    unit = value.one_of(units, {}, ", of a model's lengths");
+  };
+  return {.name = "length_unit", .take = take, .give = [&unit] { return written(unit); }};
+}
+
+static KeyTable table(SceneFile& file) {
   Scene& scene = file.scene;
   Material& material = scene.material;
   // Keys from which others take their defaults come first.
-  value.object(
-      {whole("teeth", scene.teeth, 1, most),
-       positive("root_half_height_mm", scene.root_half_height_mm),
-       positive("length_mm", scene.length_mm),
-       positive("tip_half_height_mm", scene.tip_half_height_mm),
-       key("young_MPa", material.young_MPa),
-       key("poisson", material.poisson),
-       choice("plane", scene.plane, {{"strain", Plane::strain}, {"stress", Plane::stress}}),
-       key("friction", scene.friction),
-       {"crown_radius_mm",
-        [&](const JsonValue& v) {
-          if (v.json.is_null())
-            scene.crown_radius_mm.reset();
-          else
-            read(v, scene.crown_radius_mm);
-        }},
-       curve_key("wall", scene.wall, Curve::obstacle),
-       curve_key("face", scene.face, Curve::face),
-       key("clearance_mm", scene.clearance_mm),
-       key("displacement_mm", scene.displacement_mm),
-       key("body_force_N_per_mm3", scene.body_force_N_per_mm3),
-       {"load_steps", [&](const JsonValue& v) { read_load_steps(v, scene); }},
-       {"materials",
-        [&](const JsonValue& v) {
-          v.each("an object with a body's name as each key",
-                 [&](const std::string& region, const JsonValue& of_region) {
-                   read(of_region, scene.materials[region] = material);
-                 });
-        }},
-       key("boundary", scene.boundary),
-       list("point_supports", scene.point_supports, PointSupport(),
-            "a list of points {\"at_mm\": [x, y], \"displacement_mm\": [..., ...]}"),
-       pairs("contacts", scene.contacts),
-       {"roles", [&](const JsonValue& v) { read_roles(v, file); }},
-       {"length_unit", [&](const JsonValue& v) { read_length_unit(v, file); }},
-       key("mesh", scene.mesh),
-       {"layers", [&](const JsonValue& v) { read_layers(v, scene); }},
-       key("group", scene.group),
-       key("about", scene.about)});
+  return {{whole("teeth", scene.teeth, 1, most),
+           positive("root_half_height_mm", scene.root_half_height_mm),
+           positive("length_mm", scene.length_mm),
+           positive("tip_half_height_mm", scene.tip_half_height_mm),
+           length_unit_key(file.length_unit),
+           roles_key(file.roles),
+           choice("plane", scene.plane, {{"strain", Plane::strain}, {"stress", Plane::stress}}),
+           key("young_MPa", material.young_MPa),
+           key("poisson", material.poisson),
+           materials_key(scene),
+           key("friction", scene.friction),
+           crown_key(scene.crown_radius_mm),
+           curve_key("wall", scene.wall, Curve::obstacle),
+           curve_key("face", scene.face, Curve::face),
+           key("clearance_mm", scene.clearance_mm),
+           key("displacement_mm", scene.displacement_mm),
+           key("body_force_N_per_mm3", scene.body_force_N_per_mm3),
+           key("boundary", scene.boundary),
+           list("point_supports", scene.point_supports, PointSupport(),
+                "a list of points {\"at_mm\": [x, y], \"displacement_mm\": [..., ...]}"),
+           pairs("contacts", scene.contacts),
+           load_steps_key(scene),
+           key("mesh", scene.mesh),
+           layers_key(scene),
+           key("group", scene.group),
+           key("about", scene.about)}};
+}
+
+void read_keys(const JsonValue& value, SceneFile& file) { value.object(table(file).keys); }
+
+Json scene_json(SceneFile file) {
+  std::vector<JsonKey> keys = table(file).keys;
+  std::erase_if(keys, [&](const JsonKey& key) { return !file.keys.contains(key.name); });
+  return written(keys);
 }
 
 }  // namespace airybench

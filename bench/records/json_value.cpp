@@ -48,6 +48,23 @@ void JsonValue::refuse(const Json& value, const std::string& allowed) const {
                               allowed));
 }
 
+Json written(const std::vector<JsonKey>& keys) {
+  Json json = Json::object();
+  for (const JsonKey& key : keys)
+    if (Json value = key.give(); !value.is_discarded()) json[key.name] = std::move(value);
+  return json;
+}
+
+Json changes(const std::vector<JsonKey>& keys, const std::vector<JsonKey>& presets) {
+  Json json = written(keys);
+  const Json preset = written(presets);
+  for (const JsonKey& key : keys)
+    if (!key.is_required && json.contains(key.name) && preset.contains(key.name) &&
+        json[key.name] == preset[key.name])
+      json.erase(key.name);
+  return json;
+}
+
 Json json_of_file(const std::string& name, const std::string& text) {
   constexpr std::size_t most_keys = 1000;
   std::vector<std::set<std::string>> keys;

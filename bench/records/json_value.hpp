@@ -1,5 +1,5 @@
-// Reads the keys of a JSON file. A value that does not fit throws FileError, one line: file, key,
-// value, allowed values.
+// Reads the keys of a JSON file, and writes them. A value that does not fit throws FileError, one
+// line: file, key, value, allowed values.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,9 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "bench/records/json.hpp"
@@ -21,7 +24,8 @@ class JsonValue;
 struct JsonKey {
   std::string name;
   std::function<void(const JsonValue&)> take;
-  bool is_required = false;  // a missing value is passed to take, which must fail
+  bool is_required = false;         // a missing value is passed to take, which must fail
+  std::function<Json()> give = {};  // what take() would take; discarded: nothing is set
 };
 
 class JsonValue {
@@ -89,10 +93,49 @@ void read(const JsonValue& value, std::array<T, 2>& pair) {
   for (std::size_t k = 0; k < 2; ++k) read(value.item(k), pair[k]);
 }
 
+// The counterparts of read(). A class of this namespace, so that the overloads for types of other
+// namespaces are found.
+struct JsonSlot {
+  Json json = Json(Json::value_t::discarded);  // nothing to write
+};
+template <typename T>
+requires std::is_arithmetic_v<T> || std::same_as<T, std::string>
+void put(JsonSlot& slot, const T& value) { slot.json = value; }
+template <typename T>
+void put(JsonSlot& slot, const std::optional<T>& value) {
+  if (value) put(slot, *value);
+}
+template <typename Items>
+Json json_list(const Items& items) {
+  Json list = Json::array();
+  for (const auto& item : items) {
+    JsonSlot slot;
+    put(slot, item);
+    list.push_back(std::move(slot.json));
+  }
+  return list;
+}
+template <typename T>
+void put(JsonSlot& slot, const std::array<T, 2>& pair) {
+  slot.json = json_list(pair);
+}
+template <typename T>
+Json written(const T& value) {
+  JsonSlot slot;
+  put(slot, value);
+  return std::move(slot.json);
+}
+// An object of the keys that are set.
+Json written(const std::vector<JsonKey>& keys);
+// Only of those whose values are not the presets', and of required ones. presets: the same keys.
+Json changes(const std::vector<JsonKey>& keys, const std::vector<JsonKey>& presets);
+
 // Each keeps a reference to its target.
 template <typename T>
 JsonKey key(const char* name, T& target) {
-  return {name, [&target](const JsonValue& value) { read(value, target); }};
+  return {.name = name,
+          .take = [&target](const JsonValue& value) { read(value, target); },
+          .give = [&target] { return written(target); }};
 }
 inline JsonKey required(JsonKey key) {
   key.is_required = true;
@@ -100,34 +143,43 @@ inline JsonKey required(JsonKey key) {
 }
 template <typename T>
 JsonKey positive(const char* name, T& target) {
-  return {name, [&target](const JsonValue& value) {
-            if (!value.json.is_number() || !(value.json > 0)) value.fail("a number > 0");
-            target = value.json.get<double>();
-          }};
+  const auto take = [&target](const JsonValue& value) {
+    if (!value.json.is_number() || !(value.json > 0)) value.fail("a number > 0");
+    target = value.json.get<double>();
+  };
+  return {.name = name, .take = take, .give = [&target] { return written(target); }};
 }
 template <typename Int>
 JsonKey whole(const char* name, Int& target, std::type_identity_t<Int> least,
               std::type_identity_t<Int> most) {
-  return {name, [&target, least, most](const JsonValue& value) {
-            const Json& json = value.json;
-            if (!json.is_number_integer() || json < least || json > most)
-              value.fail(fmt::format("a whole number from {} to {}", least, most));
-            target = json.get<Int>();
-          }};
+  const auto take = [&target, least, most](const JsonValue& value) {
+    const Json& json = value.json;
+    if (!json.is_number_integer() || json < least || json > most)
+      value.fail(fmt::format("a whole number from {} to {}", least, most));
+    target = json.get<Int>();
+  };
+  return {.name = name, .take = take, .give = [&target] { return written(target); }};
 }
 template <typename Int>
 JsonKey whole(const char* name, std::optional<Int>& target, std::type_identity_t<Int> least,
               std::type_identity_t<Int> most = std::numeric_limits<Int>::max()) {
-  return {name, [name, &target, least, most](const JsonValue& value) {
-            whole(name, target.emplace(), least, most).take(value);
-          }};
+  const auto take = [name, &target, least, most](const JsonValue& value) {
+    whole(name, target.emplace(), least, most).take(value);
+  };
+  return {.name = name, .take = take, .give = [&target] { return written(target); }};
 }
 template <typename Word>
 JsonKey choice(const char* name, Word& target,
                const std::vector<std::pair<std::string_view, Word>>& words) {
-  return {name, [&target, words](const JsonValue& value) {
-            target = value.one_of(words, &std::pair<std::string_view, Word>::first).second;
-          }};
+  using Named = std::pair<std::string_view, Word>;
+  const auto take = [&target, words](const JsonValue& value) {
+    target = value.one_of(words, &Named::first).second;
+  };
+  const auto give = [&target, words] {
+    const auto found = std::ranges::find(words, target, &Named::second);
+    return found == words.end() ? Json(Json::value_t::discarded) : Json(found->first);
+  };
+  return {.name = name, .take = take, .give = give};
 }
 
 }  // namespace airybench

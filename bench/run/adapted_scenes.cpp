@@ -49,46 +49,36 @@ Method adapting_method(const std::string& name) {
 }
 
 // Contact groups of which every edge became free, as it faces nothing, are none of the mesh's.
-void forget_groups(Json& json, const std::set<std::string>& groups) {
-  const auto is_gone = [&](const Json& label) {
-    return !groups.contains(label.get<std::string>());
-  };
-  const auto forget = [&](Json& of) {
-    if (of.contains("boundary"))
-      for (auto own = of["boundary"].begin(); own != of["boundary"].end();)
-        own = groups.contains(own.key()) ? std::next(own) : of["boundary"].erase(own);
-    if (of.contains("contacts"))
-      for (Json& pair : of["contacts"])
-        for (Json& side : pair["between"])
-          if (side.is_array())
-            side.erase(std::remove_if(side.begin(), side.end(), is_gone), side.end());
-  };
-  forget(json);
-  if (json.contains("load_steps") && json["load_steps"].is_array())
-    for (Json& step : json["load_steps"]) forget(step);
+void forget_groups(const std::set<std::string>& of_mesh, BoundaryConditions& boundary,
+                   std::vector<ContactPair>& contacts) {
+  const auto is_gone = [&](const std::string& label) { return !of_mesh.contains(label); };
+  std::erase_if(boundary, [&](const auto& of_group) { return is_gone(of_group.first); });
+  for (ContactPair& pair : contacts)
+    for (std::vector<std::string>& labels : pair.between)
+      if (labels.size() > 1) std::erase_if(labels, is_gone);
 }
 
-// Restates the definition for the mesh that it made: each layer is a body there.
-std::string definition_on(const Mesh& mesh, const std::string& definition,
-                          const std::string& place) {
-  Json json = parse_json(definition);
-  const Scene scene = scene_of(definition, place);
-  for (std::size_t k = 0; k < mesh.body_names.size() && !scene.layer_materials.empty(); ++k) {
-    const Material& material = scene.layer_materials[k % scene.layer_materials.size()];
-    const std::string& body = mesh.body_names[k];
-    if (!scene.materials.contains(body))
-      json["materials"][body] = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
-  }
-  if (!json.contains("wall")) json.emplace("crown_radius_mm", *Scene().crown_radius_mm);
-  if (mesh.is_polygon)
-    json["mesh"] = {{"polygon", true}};
-  else
-    json.erase("mesh");
-  json.erase("layers");
+// The scene on the mesh that it made, which has its roles; each layer is a body there.
+SceneFile scene_on(const Mesh& mesh, SceneFile file) {
+  Scene& scene = file.scene;
+  for (std::size_t k = 0; k < mesh.body_names.size() && !scene.layer_materials.empty(); ++k)
+    scene.materials.try_emplace(mesh.body_names[k],
+                                scene.layer_materials[k % scene.layer_materials.size()]);
+  scene.mesh = {};
+  scene.mesh.polygon = mesh.is_polygon;
+  scene.layers = {};
+  scene.layer_materials.clear();
+  file.roles.clear();
+  file.length_unit = "mm";
+  for (const char* key : {"layers", "roles", "length_unit", "mesh"}) file.keys.erase(key);
+  file.keys.insert("materials");
+  if (mesh.is_polygon) file.keys.insert("mesh");
+  if (!scene.wall) file.keys.insert("crown_radius_mm");  // other bodies have no default
   std::set<std::string> groups;
   for (const BoundaryEdge& edge : mesh.boundary) groups.insert(boundary_label(mesh, edge));
-  forget_groups(json, groups);
-  return json_text(json);
+  forget_groups(groups, scene.boundary, scene.contacts);
+  for (LoadStep& step : scene.later_steps) forget_groups(groups, step.boundary, step.contacts);
+  return file;
 }
 
 // What records that stay refer to is not replaced.
@@ -203,12 +193,14 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
   check_adapting_method(options.run.adapt.by);
   const Mesh& mesh = start.body()->mesh;
   const std::string name = mesh.name + "/" + start.scene_name;
-  const std::string definition = definition_on(mesh, start.scene_definition, name);
+  const SceneFile on_mesh = scene_on(mesh, scene_file_of(start.scene_definition, name));
+  const std::string definition = on_mesh.definition();
   const std::filesystem::path folder = options.output.folder / "meshes" / start.scene_name;
   const std::filesystem::path scene_file = folder / mesh.name / (start.scene_name + ".json");
   make_folder(scene_file.parent_path());
   write_for_records(scene_file, definition + "\n", options.output);
-  const Scene scene = scene_of(definition, scene_file.string());
+  Scene scene = on_mesh.scene;
+  scene.source = scene_file.string();
 
   AdaptedScenes result;
   std::vector<Json> levels;

@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include "assembly/problem/pose.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "tests/fuzz/readers.hpp"
@@ -15,8 +17,10 @@ bool is_cheap(const MeshTransform& mesh) {
 
 void scene(const std::string& text) {
   static const Mesh block = testing::small_block(2, 2, 0);
-  const Scene scene = scene_of(text, "fuzz.json");
-  if (is_cheap(scene.mesh)) pose(scene, block);
+  const SceneFile file = scene_file_of(text, "fuzz.json");
+  const std::string definition = file.definition();
+  if (scene_file_of(definition, "written.json").definition() != definition) std::abort();
+  if (is_cheap(file.scene.mesh)) pose(file.scene, block);
 }
 
 }  // namespace airybench::fuzz

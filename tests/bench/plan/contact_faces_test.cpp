@@ -37,29 +37,36 @@ TEST(ContactFaces, ACircleIsFoundWhereThereIsOne) {
 }
 
 TEST(ContactFaces, WallsJustTouch) {
-  const Json around = wall_at({arc({1, 2}, 5, 0, 2 * pi, 60)})["circle"];
-  EXPECT_EQ(around["bodies"], "inside");
-  EXPECT_EQ(around["radius_mm"], 5);
-  EXPECT_EQ(wall_at({arc({1, 2}, 5, 2 * pi, 0, 60)})["circle"]["bodies"], "outside");
+  using enum CircularWall::Bodies;
+  const auto circle_at = [](const FaceCurve& curve) {
+    return std::get<CircularWall>(wall_at({curve}));
+  };
+  const CircularWall around = circle_at(arc({1, 2}, 5, 0, 2 * pi, 60));
+  EXPECT_EQ(around.bodies, inside);
+  EXPECT_EQ(around.radius_mm, 5);
+  EXPECT_EQ(circle_at(arc({1, 2}, 5, 2 * pi, 0, 60)).bodies, outside);
   // Half a hole, of a model that is cut at its symmetry.
-  EXPECT_EQ(wall_at({arc({1, 2}, 5, pi, 0, 30)})["circle"]["bodies"], "outside");
+  EXPECT_EQ(circle_at(arc({1, 2}, 5, pi, 0, 30)).bodies, outside);
   // The lowest point of an arc lies between two vertices.
-  const Json below = wall_at({arc({1, 2}, 5, 1.2 * pi, 1.8 * pi, 7)})["flat"];
-  EXPECT_EQ(below["point_mm"], Json({1., -3.}));
-  EXPECT_EQ(below["normal"], Json({0., 1.}));
+  const auto flat_at = [](const std::vector<FaceCurve>& curves) {
+    return std::get<FlatWall>(wall_at(curves));
+  };
+  const FlatWall below = flat_at({arc({1, 2}, 5, 1.2 * pi, 1.8 * pi, 7)});
+  EXPECT_EQ(below.point_mm, Eigen::Vector2d(1, -3));
+  EXPECT_EQ(below.normal, Eigen::Vector2d(0, 1));
   // A fillet ends where its straight sole begins.
   const FaceCurve sole{{{{0, 0}, {9, 0}}}, {}};
-  const Json mixed =
-      wall_at({arc({0, 1}, 1, pi, 1.5 * pi, 8), sole, arc({9, 1}, 1, 1.5 * pi, 2 * pi, 8)});
-  EXPECT_EQ(mixed["flat"]["normal"], Json({0., 1.}));
-  EXPECT_NEAR(mixed["flat"]["point_mm"][1].get<double>(), 0, 1e-9);
+  const FlatWall mixed =
+      flat_at({arc({0, 1}, 1, pi, 1.5 * pi, 8), sole, arc({9, 1}, 1, 1.5 * pi, 2 * pi, 8)});
+  EXPECT_EQ(mixed.normal, Eigen::Vector2d(0, 1));
+  EXPECT_NEAR(mixed.point_mm.y(), 0, 1e-9);
   // Two sides that look in opposite directions are no disc: the wall of the first.
-  const Json opposite = wall_at({{{{{0, 0}, {9, 0}}, {{9, 4}, {0, 4}}}, {}}})["flat"];
-  EXPECT_EQ(opposite["normal"], Json({0., 1.}));
-  EXPECT_EQ(opposite["point_mm"][1], 0);
+  const FlatWall opposite = flat_at({{{{{0, 0}, {9, 0}}, {{9, 4}, {0, 4}}}, {}}});
+  EXPECT_EQ(opposite.normal, Eigen::Vector2d(0, 1));
+  EXPECT_EQ(opposite.point_mm.y(), 0);
   // A square hole.
   const Walk hole = {{0, 0}, {0, 2}, {2, 2}, {2, 0}, {0, 0}};
-  EXPECT_EQ(wall_at({{{hole}, circle_of({hole})}})["circle"]["radius_mm"], 1);
+  EXPECT_EQ(circle_at({{hole}, circle_of({hole})}).radius_mm, 1);
 }
 
 TEST(ContactFaces, AFaceHasOneShape) {

@@ -183,19 +183,19 @@ TEST_F(ModelRuns, ANewSceneNamesTheModelsGroups) {
   "materials": {
     "steel": {"young_MPa":210000.0,"poisson":0.3}
   },
-  "displacement_mm": [0, 0],
-  "body_force_N_per_mm3": [0, 0],
+  "displacement_mm": [0.0,0.0],
+  "body_force_N_per_mm3": [0.0,0.0],
   "boundary": {
-    "force": {"traction_MPa":[0,0]},
-    "contact": {"friction":0.2,"clearance_mm":0,"wall":{"flat":{"point_mm":[1.0,0.0],"normal":[-1.0,0.0]}}},
-    "displacement": {"support":"full"}
+    "contact": {"friction":0.2,"clearance_mm":0.0,"wall":{"flat":{"point_mm":[1.0,0.0],"normal":[-1.0,0.0]}}},
+    "displacement": {"support":"full"},
+    "force": {"traction_MPa":[0.0,0.0]}
   }
 }
 )");
   EXPECT_EQ(run("--mesh=part.geo --scene=part.json --dry-run").code, 0);
   // The scene's displacement is the group's, too.
   std::string pressed = bench_.content("part.json");
-  const std::string none = "\"displacement_mm\": [0, 0]";
+  const std::string none = "\"displacement_mm\": [0.0,0.0]";
   pressed.replace(pressed.find(none), none.size(), "\"displacement_mm\": [0.01, 0]");
   testing::write_text(bench_.path("pressed.json"), pressed);
   const testing::CommandResult ran =

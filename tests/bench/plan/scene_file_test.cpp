@@ -179,7 +179,7 @@ TEST_F(SceneFile, APolylineOfAFileIsInTheDefinition) {
   testing::write_text(folder / "profile.csv", "x_mm,y_mm\n# lower\n0, 1\r\n\n2 3.5\n");
   testing::write_text(file_, R"({"wall": {"polyline": "profile.csv"}})");
   const airybench::SceneFile given = read_scene_file(file_);
-  EXPECT_EQ(given.definition, R"({"wall":{"polyline":[[0.0,1.0],[2.0,3.5]]}})");
+  EXPECT_EQ(given.definition(), R"({"wall":{"polyline":[[0.0,1.0],[2.0,3.5]]}})");
   const auto& points = std::get<PolylineWall>(given.scene.wall.value()).points_mm;
   EXPECT_EQ(points, (std::vector<Eigen::Vector2d>{{0, 1}, {2, 3.5}}));
   testing::write_text(folder / "profile.csv", "0 1\n2 a\n");
@@ -197,7 +197,7 @@ TEST_F(SceneFile, ACrownIsTheCataloguesAlone) {
   const airybench::SceneFile given = read_scene_file(file_), other = on_other_bodies(given);
   EXPECT_EQ(given.scene.crown_radius_mm, 400);
   EXPECT_FALSE(other.scene.crown_radius_mm);
-  EXPECT_EQ(other.definition, R"({"friction":0.1,"crown_radius_mm":null})");
+  EXPECT_EQ(other.definition(), R"({"friction":0.1,"crown_radius_mm":null})");
   testing::write_text(file_, R"({"crown_radius_mm": 7})");
   EXPECT_EQ(on_other_bodies(read_scene_file(file_)).scene.crown_radius_mm, 7);
 }
@@ -278,13 +278,68 @@ TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
 
 TEST_F(SceneFile, HowAMeshIsMadeOfAModel) {
   const auto settings = [&](const char* text) {
-    return read_scene_file(testing::write_text(folder_ / "a.json", text)).model_settings;
+    return read_scene_file(testing::write_text(folder_ / "a.json", text)).model_settings();
   };
   using Texts = std::vector<std::string>;
   EXPECT_EQ(settings("{}"), Texts{});
   EXPECT_EQ(settings(R"({"roles": {"1-4": "force:side", "a=b": "contact"}, "length_unit": "m"})"),
             (Texts{"--role=1-4=force:side", "--role=a=b=contact", "--length-unit=m"}));
   EXPECT_EQ(settings(R"({"length_unit": "mm"})"), Texts{});
+}
+
+// Every key with another value than its default, in the order of the table.
+TEST_F(SceneFile, WhatIsReadIsWritten) {
+  const std::string start =
+      R"({"teeth":1,"root_half_height_mm":5.0,"length_mm":10.0,"tip_half_height_mm":3.0,)"
+      R"("length_unit":"inch","roles":{"3":"contact:sole","a=b":"force"},"plane":"stress",)"
+      R"("young_MPa":70000.0,"poisson":0.33,)"
+      R"("materials":{"rim":{"young_MPa":3000.0,"poisson":0.4}},"friction":0.5,)";
+  const std::string loads =
+      R"("clearance_mm":0.001,"displacement_mm":[0.01,-0.002],"body_force_N_per_mm3":[1.0,2.0],)"
+      R"("boundary":{"displacement:a":{"displacement_mm":[0.1,0.2],"support":"normal"},)"
+      R"("force:a":{"traction_MPa":{"at_mm":[[0.0,1.0],[4.0,1.0]],"values":[[1.0,2.0],[3.0,4.0]]}},)"
+      R"("force:b":{"pressure_MPa":{"at_mm":[[0.0,1.0],[4.0,1.0]],"values":[2.0,6.0]}},)"
+      R"("force:c":{"pressure_MPa":7.0}},)";
+  const std::string end = R"("group":"g","about":"all keys"})";
+  for (const std::string& text :
+       {start + R"("crown_radius_mm":null,)" + loads +
+            R"("point_supports":[{"at_mm":[0.0,0.0],"displacement_mm":[0.0,null],"body":"rim"}],)"
+            R"("contacts":[{"between":["contact:a",["contact:b","contact:c"]],"friction":0.3,)"
+            R"("clearance_mm":-0.01}],"load_steps":20,)"
+            R"("mesh":{"refine":2,"grade":{"at_mm":[10.0,1.0],"ratio":100.0},)"
+            R"("slivers":{"aspect":1000.0,"count":5},"scale":2.0,"stretch":[1.0,0.5],)"
+            R"("move_mm":[3.0,4.0],"keep_contact_edges":0,"keep_displacement_edges":2,)"
+            R"("keep_force_edges":1,"polygon":true},)"
+            R"("layers":{"normal":[0.0,1.0],"interfaces_mm":[-1.0,1.0],)"
+            R"("materials":[{"young_MPa":21.0,"poisson":0.2}]},)" +
+            end,
+        start +
+            R"("wall":{"flat":{"point_mm":[1.0,2.0],"normal":[0.0,1.0]}},)"
+            R"("face":{"circle":{"centre_mm":[3.0,4.0],"radius_mm":5.0}},)" +
+            loads +
+            R"("load_steps":[{"displacement_mm":[0.02,0.0],"body_force_N_per_mm3":[1.0,2.0]},)"
+            R"({"clearance_mm":0.002,"boundary":{"force:c":{"pressure_MPa":3.0}}}],)"
+            R"("layers":{"count":3},)" +
+            end,
+        std::string(
+            R"({"boundary":{"contact:a":{"friction":0.1,"clearance_mm":0.2,)"
+            R"("wall":{"circle":{"centre_mm":[0.0,1.0],"radius_mm":2.0,)"
+            R"("bodies":"outside"}},"face":{"polyline":[[0.0,0.0],[1.0,1.0]]}}},)"
+            R"("contacts":[{"between":["contact:b","contact:c"]}],"load_steps":)"
+            R"([{"contacts":[{"between":["contact:b","contact:c"],"clearance_mm":1.0}]}]})")})
+    EXPECT_EQ(scene_file_of(text, "scene").definition(), text);
+  // Keys that were given stay, whatever their values.
+  EXPECT_EQ(scene_file_of(R"({"friction": 0.2, "plane": "strain"})", "scene").definition(),
+            R"({"plane":"strain","friction":0.2})");
+}
+
+TEST_F(SceneFile, EqualStepsAreAKeyOfTheFile) {
+  const auto in_steps = [](const char* text) {
+    return in_equal_steps(scene_file_of(text, "scene"), 4).definition();
+  };
+  EXPECT_EQ(in_steps("{}"), R"({"load_steps":4})");
+  EXPECT_EQ(testing::complaint_of<InputError>([&] { in_steps(R"({"load_steps": 2})"); }),
+            "scene: load_steps and --steps (allowed: one of them)");
 }
 
 TEST_F(SceneFile, AMissingFileIsNamed) {

@@ -26,7 +26,8 @@ SCENES = {
     "default": {},
     "without friction": {"friction": 0},
     "body force, layers": {"friction": 0.4, "body_force_N_per_mm3": [0.3, -1],
-                           "layers": {"count": 2, "normal": [1, 0], "materials": [{}, {"poisson": 0.45}]}},
+                           "layers": {"count": 2, "materials": [{"young_MPa": 2.1e5, "poisson": 0.3},
+                                                              {"young_MPa": 2.1e5, "poisson": 0.45}]}},
     "pressure, rollers at root and flanks": {
         "mesh": {"keep_force_edges": 6}, "displacement_mm": [0.01, 0],
         "boundary": {"force": {"pressure_MPa": 3}, "displacement": {"support": "normal"}}},

@@ -221,7 +221,7 @@ TEST_F(AdaptCommand, GroupsThatFaceNothingAreForgotten) {
       "--mesh=blocks.msh --scene=pair.json --method=HYBRID --adapt=400 --repetitions=1 --out=o");
   const Json definition = Json::parse(bench_.content("o/meshes/pair/blocks/pair.json"));
   EXPECT_EQ(definition["contacts"][0]["between"],
-            Json::parse(R"(["contact:block", ["contact:base"]])"));
+            Json::parse(R"(["contact:block", "contact:base"])"));
 }
 
 TEST_F(AdaptCommand, WhatOneAsksOfTheContactHasIntervalsAndTheMeanOfBothStressesHalfOfTheError) {
