@@ -15,6 +15,7 @@
 
 #include "bench/commands/commands.hpp"
 #include "bench/run/isolated_scene.hpp"
+#include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "solvers/base/blas_library.hpp"
 #include "support/errors.hpp"
@@ -64,6 +65,7 @@ std::string refusal_of(const std::system_error& error) {
 int run(int argc, char** argv) {
   bool has_resume = false;
   try {
+    airybench::restart_without_benchmark_variables(argv);
     airybench::restart_with_better_blas_core(argv);
     const auto found = argc > 1 ? commands.find(argv[1]) : commands.end();
     if (argc > 1 && found == commands.end()) refuse_misspelt_command(argv[1]);

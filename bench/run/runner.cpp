@@ -3,9 +3,11 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <regex.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <functional>
 #include <iostream>
@@ -13,6 +15,8 @@
 #include <map>
 #include <numeric>
 #include <sstream>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "bench/records/record_files.hpp"
@@ -33,40 +37,12 @@ namespace {
 constexpr int passes_beside = 3;  // before a case, and after it
 constexpr int most_attempts = 4;
 
-// Google Benchmark takes times with a unit since version 1.8, the first with State::skipped().
-template <typename State>
-constexpr bool takes_unit = requires(State& state) {
-  state.skipped();
-};
-
-// Sets every option that environment variables (BENCHMARK_FILTER and so on) could change: the
-// library has read them before main().
 void initialize_benchmark(bool interleave) {
-  static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
-  std::vector<std::string> wanted = {
-      "bench",
-      "--benchmark_filter=all",
-      "--benchmark_list_tests=false",
-      "--benchmark_repetitions=1",
-      fmt::format("--benchmark_min_time={}", takes_unit<benchmark::State> ? "0s" : "0"),
-      "--benchmark_min_warmup_time=0",
-      "--benchmark_report_aggregates_only=false",
-      "--benchmark_display_aggregates_only=false",
-      "--benchmark_format=console",
-      "--benchmark_out=",
-      "--benchmark_out_format=json",
-      "--benchmark_color=false",
-      "--benchmark_counters_tabular=false",
-      "--benchmark_perf_counters=",
-      "--benchmark_context=",
-      "--benchmark_time_unit=ms",
-      "--v=0",
-      fmt::format("--benchmark_enable_random_interleaving={}", interleave)};
-  if (arguments == wanted) return;  // a repeated context would raise a complaint
-  arguments = std::move(wanted);
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  int argc = static_cast<int>(argv.size());
+  static std::string program = "bench";  // the library keeps a pointer to it
+  std::string quiet = "--v=0",
+              order = fmt::format("--benchmark_enable_random_interleaving={}", interleave);
+  std::array<char*, 4> argv = {program.data(), quiet.data(), order.data(), nullptr};
+  int argc = 3;
   benchmark::Initialize(&argc, argv.data());
 }
 
@@ -85,10 +61,12 @@ class Listener : public benchmark::BenchmarkReporter {
   std::ostringstream unread_;
 };
 
+// Cases are registered by scene, and forgotten after it: what is registered together is
+// interleaved, and a scene's process holds its blocks while its cases run.
 void run_benchmarks(Listener::Ended ended) {
-  struct Forgets {
-    ~Forgets() { benchmark::ClearRegisteredBenchmarks(); }
-  } forgets;
+  struct RegistrationGuard {
+    ~RegistrationGuard() { benchmark::ClearRegisteredBenchmarks(); }
+  } guard;
   Listener listener(std::move(ended));
   benchmark::RunSpecifiedBenchmarks(&listener, "all");
 }
@@ -115,8 +93,7 @@ class SceneRunner {
                                    [this, k](benchmark::State& state) { measure(k, state); })
           ->UseManualTime()
           ->Iterations(1)
-          ->Repetitions(max_repetitions(limits_))
-          ->Unit(benchmark::kMillisecond);
+          ->Repetitions(max_repetitions(limits_));
     run_benchmarks([this](const std::string& name) { finish(index_of(name)); });
     if (limits_.interleave) write_finished();
   }
@@ -129,7 +106,6 @@ class SceneRunner {
     std::vector<Record> noisy;  // the samples of earlier attempts
     double wall_s = 0;
     bool finished = false, written = false;
-    bool shown_once = false;  // Google Benchmark has a long case's only sample
   };
 
   void measure(std::size_t k, benchmark::State& state) {
@@ -137,15 +113,10 @@ class SceneRunner {
     const auto start = std::chrono::steady_clock::now();
     if (!cases_[k].record) examine(k);
     const Record& record = *cases_[k].record;
-    for (auto _ : state) {
-      if (!is_measured(record)) {
-        // Nothing else ends a benchmark's repetitions.
-        state.SkipWithError(
-            fmt::format("{}: {}", name_of(record.status), record.status_reason).c_str());
-        break;
-      }
-      state.SetIterationTime(next_sample(k, state));
-    }
+    // The library knows the most repetitions only: the rest of them do nothing.
+    for (auto _ : state)
+      if (is_measured(record) && is_repeated(record, limits_))
+        state.SetIterationTime(add_sample(k));
     cases_[k].wall_s += seconds_since(start);
   }
 
@@ -157,13 +128,6 @@ class SceneRunner {
     record.busy_kernel_samples_s = std::move(before.busy_kernel_samples_s);
   }
 
-  double next_sample(std::size_t k, benchmark::State& state) {
-    Measured& c = cases_[k];
-    if (is_repeated(*c.record, limits_)) return add_sample(k);
-    if (!c.record->measured_once || std::exchange(c.shown_once, true))
-      state.SkipWithError("not repeated: a long case, or precise enough");
-    return c.record->samples_s.back();
-  }
   double add_sample(std::size_t k) {
     if (watch_.is_due()) time_loop(1, k);
     const TimedRun run = scene_.measure_time(k);
@@ -256,6 +220,17 @@ class SceneRunner {
 };
 
 }  // namespace
+
+void restart_without_benchmark_variables(char* const* argv) {
+  std::vector<char*> kept;
+  std::size_t all = 0;
+  for (; environ[all] != nullptr; ++all)
+    if (!std::string_view(environ[all]).starts_with("BENCHMARK_")) kept.push_back(environ[all]);
+  if (kept.size() == all) return;
+  kept.push_back(nullptr);
+  execve("/proc/self/exe", argv, kept.data());
+  throw std::system_error(errno, std::generic_category(), "/proc/self/exe");
+}
 
 int min_repetitions(const Limits& limits) {
   return limits.precision ? std::max(limits.repetitions, fewest_for_median_interval)

@@ -46,8 +46,13 @@ struct RunResult {
 RunResult run_cases(const std::vector<Case>& plan, const Limits& limits, const Output& output,
                     const Context& context, const Machine& machine = this_machine());
 
-// The cases whose names match, as Google Benchmark's filter does: an unanchored extended regular
-// expression; a leading '-' inverts it. Throws UsageError if the expression is invalid.
+// Google Benchmark reads its options from these variables before main(): starts the program again
+// without them. Throws std::system_error.
+void restart_without_benchmark_variables(char* const* argv);
+
+// The cases whose names match, as Google Benchmark's filter does, which would come too late for
+// plans and forecasts, and would see the names that it makes of these: an unanchored extended
+// regular expression; a leading '-' inverts it. Throws UsageError if the expression is invalid.
 std::vector<Case> matching(std::vector<Case> plan, const std::string& filter);
 
 int min_repetitions(const Limits& limits);
