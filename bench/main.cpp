@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bench/commands/commands.hpp"
+#include "bench/commands/run_parts.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
@@ -110,6 +111,7 @@ int main(int argc, char** argv) {
   airybench::open_standard_streams();
   airybench::end_for_lack_of_memory_with("bench: out of memory\n", airybench::did_not_finish);
   airybench::show_messages_escaped();
+  if (airybench::is_drawn_by_caller()) airybench::interrupt_with_caller();  // who waits for it
   for (const std::string& lack :
        {airybench::lack_of_stack_or_descriptors(), airybench::lack_of_address_space(1)})
     if (!lack.empty())

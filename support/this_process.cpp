@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -24,11 +25,12 @@ namespace {
 volatile std::sig_atomic_t interrupting_signal = 0;
 
 void on_interrupt(int signal) {
-  if (interrupting_signal != 0) {
+  if (interrupting_signal == 0) {
+    interrupting_signal = signal;
+  } else if (signal != SIGHUP) {  // the caller's end may follow what ended it
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }
-  interrupting_signal = signal;
 }
 
 bool output_was_closed = false;
@@ -55,6 +57,8 @@ Interrupted::Interrupted(int number)
 void catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
 }
+
+void interrupt_with_caller() { prctl(PR_SET_PDEATHSIG, SIGHUP); }
 
 bool is_interrupted() { return interrupting_signal != 0; }
 

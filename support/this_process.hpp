@@ -21,8 +21,11 @@ struct Interrupted : std::runtime_error {
   explicit Interrupted(int number);
   int signal;
 };
-// After one of these signals throw_if_interrupted() throws; a second one ends the program at once.
+// After one of these signals throw_if_interrupted() throws; a second one, but for SIGHUP, ends the
+// program at once.
 void catch_interrupts();
+// SIGHUP comes, too, when the process that started this program ends.
+void interrupt_with_caller();
 bool is_interrupted();
 void throw_if_interrupted();
 

@@ -35,7 +35,7 @@ const std::map<std::string_view, std::string_view> replaced = {
     {"--marking", "--adapt=GOAL,marking=SHARE"},
     {"--max-repetitions", "--repetitions=N..MOST,precision=2%"},
     {"--precision", "--repetitions=N,precision=2%"},
-    {"--then", "the environment variable AIRYBENCH_THEN"},
+    {"--then", "a command of your own, after bench"},
     {"--tuning-budget", "--timeout=SECONDS,tuning=SECONDS"},
 };
 

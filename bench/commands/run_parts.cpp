@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <set>
@@ -174,7 +174,7 @@ std::string pictures_of(const std::string& name, bool is_path, const fs::path& o
       is_path ? fmt::format("numbers of every step: {}\nmoving picture: {} --animate\n",
                             (out / "fields" / (name + ".steps.csv")).string(), draw)
               : "";
-  if (is_newer(picture, grid))
+  if (is_drawn_by_caller() || is_newer(picture, grid))
     return fmt::format("picture: {}  (ParaView: {})\n{}", picture.string(), shown.string(), moving);
   return fmt::format("ParaView: {}  (a picture: {})\n{}", shown.string(), draw, moving);
 }
@@ -254,14 +254,17 @@ bool is_named_after_catalogue(const std::string& mesh) {
   return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }
 
-bool draw_figures(const fs::path& out, const std::string& options) {
-  std::fflush(stdout);
-  const char* const then = std::getenv("AIRYBENCH_THEN");
-  if (then == nullptr || *then == '\0') return false;
-  if (std::system(fmt::format("{} {} {}", then, options, file_operand(out.string())).c_str()) == 0)
-    return true;
-  std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
-  return false;
+bool is_drawn_by_caller() {
+  const char* const file = std::getenv("AIRYBENCH_TO_DRAW");
+  return file != nullptr && *file != '\0';
+}
+
+bool leave_to_draw(const fs::path& out, const std::vector<std::string>& options) {
+  if (!is_drawn_by_caller()) return false;
+  std::ofstream file(std::getenv("AIRYBENCH_TO_DRAW"), std::ios::binary);
+  for (const std::string& option : options) file << option << '\0';
+  file << "--" << '\0' << out.string() << '\0';
+  return static_cast<bool>(file.flush());
 }
 
 void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
@@ -270,7 +273,7 @@ void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
     const Record record = result.record(k);
     any_figure = record.n_phi.has_value() || !record.study.empty();
   }
-  if (any_figure) draw_figures(out);
+  if (any_figure) leave_to_draw(out);
   fmt::print("{}", picture_line(result, out, has_fields));
 }
 

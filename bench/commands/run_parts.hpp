@@ -1,6 +1,7 @@
 // Parts that the commands that run cases share.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,13 @@ PosedScene one_posed_scene(const Options& options);  // throws UsageError unless
 // Of the paper's meshes, also adapted or refined: "Mesh0+adapt3".
 bool is_named_after_catalogue(const std::string& mesh);
 
-// Runs the shell command $AIRYBENCH_THEN with these options and the results folder as its last
-// argument; notes a failure. False where there is no such command, or it fails.
-bool draw_figures(const std::filesystem::path& out, const std::string& options = "");
+// ./run draws when this program has ended: $AIRYBENCH_TO_DRAW names a file, which gets the
+// arguments of `./run figures`, each with a zero byte behind it.
+bool is_drawn_by_caller();
+// False where nobody draws, or the file cannot be written.
+bool leave_to_draw(const std::filesystem::path& out, const std::vector<std::string>& options = {});
 
-// Draws the figures, if there are any. Then prints which picture of the last mesh outside the
+// Leaves figures to draw, if there are any. Prints which picture of the last mesh outside the
 // catalogue to open, or how to get one. has_fields: the run has written fields.
 void end_run(const RunResult& result, const std::filesystem::path& out, bool has_fields);
 

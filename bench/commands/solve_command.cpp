@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -270,10 +271,10 @@ int solve_command(int argc, const char* const* argv) {
                         {"report", to_json(report)}};
     // After the records: where these are newer, a later run has written them.
     write_file_atomically(options.output.folder / "part.json", json_text(shown));
-    const std::string drawn_with = html ? "--html" : "";
-    if (!draw_figures(options.output.folder, drawn_with))
+    const std::vector<std::string> drawn_with(html ? 1 : 0, "--html");
+    if (!leave_to_draw(options.output.folder, drawn_with))
       fmt::print("a picture: {} figures {} {}\n", called_as("run"),
-                 shell_word(options.output.folder.string()), drawn_with);
+                 shell_word(options.output.folder.string()), fmt::join(drawn_with, " "));
   }
   return is_met ? all_ok : some_case_failed;
 }

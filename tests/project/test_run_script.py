@@ -1,8 +1,11 @@
 """The decisions of ./run.  /usr/bin/python3 -m unittest FILE"""
+import os
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -198,6 +201,55 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
             ran = self.run_bench(folder, "AIRYBENCH_BUILD_DIR=-trees")
             self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "bench export\n", ""))
             self.assertFalse((project / "build").exists())
+
+    def measuring_project(self, folder: Path, bench: str) -> tuple[Path, dict[str, str]]:
+        """A project with this bench, and figures that tell what they are to draw; its environment."""
+        project = self.project_in(folder)
+        (project / "build/release/bench/bench").write_text(f"#!/bin/bash\n{bench}\n", encoding="utf-8")
+        (project / "plots").mkdir()
+        (project / "plots/draw_folder.py").write_text(
+            "import os, sys\nprint('draws', *sys.argv[1:])\nsys.exit(int(os.environ.get('FAILS', '0')))\n")
+        (folder / "tmp").mkdir()
+        return project, {"PATH": f"{folder}:/usr/bin:/bin", "AIRYBENCH_INSTALL": "no", "TMPDIR": f"{folder}/tmp"}
+
+    def test_what_a_run_leaves_to_draw_is_drawn_and_has_no_say_in_the_exit_code(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            project, environment = self.measuring_project(folder, r'''echo "measures $*"
+[[ -z $AIRYBENCH_TO_DRAW || $* == *--dry-run* ]] || printf -- '--html\0--\0a b\0' >"$AIRYBENCH_TO_DRAW"
+exit ${CODE:-0}''')
+            drawn = "draws --quiet --html -- a b\n"
+            for command, said in {("bench", "--mesh=Mesh0"): drawn, ("solve", "part.inp"): drawn,
+                                  ("bench", "advise"): drawn, ("bench", "--dry-run"): "",
+                                  ("bench", "list"): "", ("bench", "track"): ""}.items():
+                for code in ("0", "1", "3"):
+                    ran = subprocess.run([project / "run", *command], env=environment | {"CODE": code}, text=True,
+                                         capture_output=True, check=False)
+                    measured = " ".join(command).removeprefix("bench ")
+                    self.assertEqual((ran.returncode, ran.stdout, ran.stderr),
+                                     (int(code), f"measures {measured}\n{said}", ""), command)
+            ran = subprocess.run([project / "run", "bench"], env=environment | {"AIRYBENCH_FIGURES": "no"}, text=True,
+                                 capture_output=True, check=False)
+            self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "measures \n", ""))
+            ran = subprocess.run([project / "run", "bench"], env=environment | {"FAILS": "1"}, text=True,
+                                 capture_output=True, check=False)
+            self.assertEqual((ran.returncode, ran.stderr), (0, "run: not all figures of a b are drawn\n"))
+            self.assertEqual(list((folder / "tmp").iterdir()), [])
+
+    def test_an_interrupted_run_draws_nothing(self) -> None:
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, -signal.SIGTERM)):
+            with tempfile.TemporaryDirectory() as name:
+                folder = Path(name)
+                project, environment = self.measuring_project(
+                    folder, f"trap 'exit {128 + number}' {number}; touch {name}/begun; while :; do sleep 0.01; done")
+                # A terminal's signal goes to all of a process group; so does that of timeout.
+                with subprocess.Popen([project / "run", "bench"], env=environment, start_new_session=True,
+                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+                    while not (folder / "begun").exists():
+                        time.sleep(0.01)
+                    os.killpg(run.pid, number)
+                    self.assertEqual((run.communicate()[0], run.returncode), ("", code))
+                self.assertEqual(list((folder / "tmp").iterdir()), [])
 
     def test_two_programs_run_in_turn_and_are_compared(self) -> None:
         with tempfile.TemporaryDirectory() as name:

@@ -1,11 +1,14 @@
 // The bench command from outside: exit codes, records, output files; plan_test.cpp.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <map>
 
 #include "bench/records/json.hpp"
+#include "tests/support/background_run.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/sanitized.hpp"
@@ -259,15 +262,39 @@ TEST(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
         << on_two[k];
 }
 
-TEST(Command, WhatComesThenGetsTheFolderAndHasNoSayInTheExitCode) {
+TEST(Command, ARunLeavesItsCallerWhatToDraw) {
   const BenchCommand bench;
-  const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=\"-it's\" ";
-  const CommandResult result = bench.run(run, "export AIRYBENCH_THEN='ls >said; ls >>said'; ");
+  const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=\"-it's\" ",
+                    caller = "export AIRYBENCH_TO_DRAW=drawn; ";
+  for (const char* no_run : {"--dry-run", "--no-such-option"}) {
+    bench.run(run + no_run, caller);
+    EXPECT_FALSE(fs::exists(bench.path("drawn"))) << no_run;
+  }
+  const CommandResult result = bench.run(run, caller);
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(bench.content("said").find("records.jsonl\n"), std::string::npos);
-  EXPECT_EQ(bench.run(run, "export AIRYBENCH_THEN=false; ").code, 0);
-  EXPECT_EQ(bench.run(run + "--dry-run", "export AIRYBENCH_THEN='touch never'; ").code, 0);
-  EXPECT_FALSE(fs::exists(bench.path("never")));
+  EXPECT_EQ(bench.content("drawn"), std::string("--\0-it's\0", 9));
+  EXPECT_EQ(bench.run(run, "export AIRYBENCH_TO_DRAW=no/such/folder/file; ").code, 0);
+}
+
+// As ./run, which waits for it.
+TEST(Command, EndsWithTheCallerThatDraws) {
+  const BenchCommand bench;
+  const pid_t caller = fork();
+  if (caller == 0) {
+    const std::string command =
+        "cd '" + bench.path("").string() + "' && export AIRYBENCH_TO_DRAW=drawn; '" +
+        testing::bench_executable().string() +
+        "' --mesh=Mesh0,Mesh3 --method=HYBRID,SYMMLQ:NONE --out=o >out.txt 2>err.txt; exit";
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  testing::wait_for([&] { return !bench.records().empty(); });
+  const pid_t program = testing::children_of(caller).at(0);
+  kill(caller, SIGKILL);
+  waitpid(caller, nullptr, 0);
+  testing::wait_for([&] { return !testing::is_there(program); });
+  EXPECT_NE(bench.content("err.txt").find("ended by SIGHUP: "), std::string::npos);
+  EXPECT_FALSE(fs::exists(bench.path("drawn")));
 }
 
 TEST(Command, YourOwnBodyIsSolvedByTwoMethods) {

@@ -241,8 +241,9 @@ TEST_F(SolveCommand, InstancesPressOnEachOther) {
 
 TEST_F(SolveCommand, ItsPictureAndPageAreMadeOfWhatIsPrinted) {
   const testing::CommandResult ran = bench_.run(
-      "solve " + deck("plate_tension") + " --html --out=o", "export AIRYBENCH_THEN='echo drawn'; ");
-  EXPECT_NE(ran.out.find("drawn --html o\n"), std::string::npos) << ran.out << ran.err;
+      "solve " + deck("plate_tension") + " --html --out=o", "export AIRYBENCH_TO_DRAW=drawn; ");
+  EXPECT_EQ(bench_.content("drawn"), std::string("--html\0--\0o\0", 12)) << ran.out << ran.err;
+  EXPECT_EQ(ran.out.find("a picture: "), std::string::npos) << ran.out;
   const Json part = parse_json(bench_.content("o/part.json"));
   EXPECT_EQ(part["name"], "plate_tension");
   EXPECT_NE(part["notes"][0].get<std::string>().find("not used: *"), std::string::npos);
