@@ -13,7 +13,7 @@ WORKDIR /src
 # `run` installs what building needs; the Debian package depends on what running needs.
 RUN git config --global --add safe.directory /src \
  && ./run meshgen --check >/dev/null \
- && ./run bench --list >/dev/null \
+ && ./run bench list >/dev/null \
  && cd build/release && cmake --build . && cpack -B /package
 
 FROM $DEBIAN

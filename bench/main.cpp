@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bench/commands/commands.hpp"
+#include "bench/commands/former_options.hpp"
 #include "bench/commands/run_parts.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/runner.hpp"
@@ -31,11 +32,16 @@ using Command = int (*)(int argc, const char* const* argv);
 // Keyed by the first argument; any other first argument starts a run.
 const std::map<std::string_view, Command> commands = {
     {"advise", airybench::advise_command},
+    {"check", airybench::check_command},
     {"claims", airybench::claims_command},
     {"compare", airybench::compare_command},
+    {"explain", airybench::explain_command},
     {"export", airybench::export_command},
     {"export-problem", airybench::export_problem_command},
+    {"list", airybench::list_command},
     {"merge", airybench::merge_command},
+    {"new-external", airybench::new_external_command},
+    {"new-scene", airybench::new_scene_command},
     {"replay", airybench::replay_command},
     {"solve", airybench::solve_command},
     {"track", airybench::track_command},
@@ -68,10 +74,15 @@ int run(int argc, char** argv) {
   try {
     airybench::restart_without_benchmark_variables(argv);
     airybench::restart_with_better_blas_core(argv);
-    const auto found = argc > 1 ? commands.find(argv[1]) : commands.end();
-    if (argc > 1 && found == commands.end()) refuse_misspelt_command(argv[1]);
+    const std::vector<std::string> words = airybench::with_command({argv, argv + argc});
+    std::vector<const char*> now;
+    for (const std::string& word : words) now.push_back(word.c_str());
+    const int count = static_cast<int>(now.size());
+    const auto found = count > 1 ? commands.find(now[1]) : commands.end();
+    if (count > 1 && found == commands.end()) refuse_misspelt_command(now[1]);
     has_resume = found == commands.end();
-    return has_resume ? airybench::run_command(argc, argv) : found->second(argc - 1, argv + 1);
+    return has_resume ? airybench::run_command(count, now.data())
+                      : found->second(count - 1, now.data() + 1);
   } catch (const airybench::HelpRequested& help) {
     std::fputs(help.what(), stdout);
     return airybench::all_ok;

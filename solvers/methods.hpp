@@ -1,7 +1,7 @@
 // The table of named methods: the only place that knows all of them.
 //
 // A new method is one file in methods/ and one line in methods.cpp; it then appears in
-// `bench --list`, the runs, the tests and the figures.
+// `bench list`, the runs, the tests and the figures.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// `bench --check=mine.json`: small cases that are made to test external programs, each for one
+// `bench check mine.json`: small cases that are made to test external programs, each for one
 // mistake (bench/scenes/check), and which mistake a wrong answer looks like.
 #pragma once
 

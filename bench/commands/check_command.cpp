@@ -1,27 +1,65 @@
-#include "bench/commands/check_command.hpp"
-
 #include <fmt/format.h>
 
 #include <iostream>
 
 #include "bench/check/check.hpp"
+#include "bench/commands/command_line.hpp"
+#include "bench/commands/commands.hpp"
 #include "bench/commands/run_parts.hpp"
 #include "bench/external/external_method.hpp"
-#include "bench/external/new_external.hpp"
 #include "bench/measure/environment.hpp"
 #include "bench/run/threads_at_hand.hpp"
-#include "support/called_as.hpp"
 #include "support/errors.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
 
 namespace airybench {
+namespace {
 
-int check_external(Options options) {
-  require_standard_output();
+constexpr const char* check_footer = R"(
+The cases are those of {bench} --study=check, and one without a solution (docs/external-solvers.md).
+
+Exit status  0  every case passes
+             1  some case does not
+             2  wrong usage, or a file that cannot be used: one line on standard error
+
+Example
+  {bench} new-external mine; {bench} check mine.json
+)";
+
+Options parse_check(int argc, const char* const* argv, std::filesystem::path& declaration) {
+  Options options;
   options.limits.repetitions = 1;
-  const Method program = external_method(for_every_value(read_declaration(options.check)).front(),
+  CLI::App app(
+      "Runs another program on small cases that each find one mistake, and says which mistake "
+      "wrong "
+      "answers look like.",
+      "{bench} check");
+  app.footer(check_footer);
+  app.add_option("DECLARATION", declaration, "of the program: a JSON file")->required();
+  add_number(app, "--target-error", Least::above_zero, most_of_a_limit,
+             options.run.cases.target_error, "largest error of an answer that passes");
+  add_whole(app, "--threads", 1, most_threads, options.run.cases.threads,
+            "of BLAS, and {threads} of the program");
+  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.limits.timeout_s,
+             "seconds that one solve may take");
+  add_memory_limit(app, options.limits);
+  parse_command_line(app, argc, argv);
+  options.run.study = study_named("check").value();
+  for (const auto& [option, value] : options.run.study.options)
+    if (option == "--mesh") options.run.meshes = value;
+  return options;
+}
+
+}  // namespace
+
+int check_command(int argc, const char* const* argv) {
+  std::filesystem::path declaration;
+  const Options options = parse_check(argc, argv, declaration);
+  require_standard_output();
+  const Method program = external_method(for_every_value(read_declaration(declaration)).front(),
                                          options.limits.memory_limit_bytes);
+  require_threads(options.run.cases.threads);
   const std::vector<PosedScene> scenes = posed_scenes(options);
   set_threads(options.run.cases.threads);
   catch_interrupts();
@@ -43,20 +81,6 @@ int check_external(Options options) {
   if (passed == all) return all_ok;
   if (!report.conclusion.empty()) fmt::print("all its answers look like: {}\n", report.conclusion);
   return some_case_failed;
-}
-
-int new_external(const std::filesystem::path& name) {
-  const auto files = write_new_external(name);
-  const std::string declaration = shell_word(files.back().string());
-  const std::string bench = called_as("bench");
-  fmt::print(
-      "{} and {} written: a program that is right as it is. Change its contact_forces(), then:\n"
-      "  {} --check={}    (small cases that each find one mistake)\n"
-      "  {} --study=check --method='HYBRID,EXTERNAL:*' --external={}    (its time, next to ours)\n"
-      "Do not test with the default scene of Mesh0 to Mesh7: G is zero but for rounding there, so\n"
-      "that a wrong sign of it passes.\n",
-      files.front().string(), files.back().string(), bench, declaration, bench, declaration);
-  return all_ok;
 }
 
 }  // namespace airybench

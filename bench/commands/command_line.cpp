@@ -26,28 +26,7 @@ std::vector<std::filesystem::path> files_of(const std::string& item) {
   return files;
 }
 
-const std::map<std::string_view, std::string_view> replaced = {
-    {"--adapt-by", "--adapt=GOAL,by=METHOD"},
-    {"--budget", "--study=error:SECONDS"},
-    {"--histories", "--fields=histories"},
-    {"--levels", "--adapt=GOAL,levels=last"},
-    {"--long-case", "--repetitions=N,within=SECONDS"},
-    {"--marking", "--adapt=GOAL,marking=SHARE"},
-    {"--max-repetitions", "--repetitions=N..MOST,precision=2%"},
-    {"--precision", "--repetitions=N,precision=2%"},
-    {"--then", "a command of your own, after bench"},
-    {"--tuning-budget", "--timeout=SECONDS,tuning=SECONDS"},
-};
-
 }  // namespace
-
-void refuse_replaced(int argc, const char* const* argv) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    if (const auto found = replaced.find(word.substr(0, word.find('='))); found != replaced.end())
-      throw UsageError(fmt::format("{}: is now {}", found->first, found->second));
-  }
-}
 
 void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {

@@ -16,9 +16,6 @@ namespace airybench {
 // unknown). Refuses "--out=", because CLI11 would take the next argument as its value.
 void parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
-// Throws UsageError for an option of an earlier version: names what it is now.
-void refuse_replaced(int argc, const char* const* argv);
-
 // Parse numbers (support/numbers.hpp). Throw UsageError: option, value, allowed values.
 enum class Least { zero, above_zero };
 double read_number(const std::string& option, const std::string& text, Least least, double most);
@@ -74,6 +71,8 @@ void read_degree(const std::string& text, bool keeps_methods, RunSettings& run);
 // Throws UsageError.
 void take_benchmark_argument(const std::string& argument, Options& options);
 
-Options parse_options(int argc, const char* const* argv);  // throws UsageError, HelpRequested
+// The options of a run, or of what is told of it instead. Throws UsageError, HelpRequested.
+enum class Asked { run, explanation };
+Options parse_options(int argc, const char* const* argv, Asked asked = Asked::run);
 
 }  // namespace airybench

@@ -8,11 +8,16 @@
 namespace airybench {
 
 int advise_command(int argc, const char* const* argv);
+int check_command(int argc, const char* const* argv);
 int claims_command(int argc, const char* const* argv);
 int compare_command(int argc, const char* const* argv);
+int explain_command(int argc, const char* const* argv);
 int export_command(int argc, const char* const* argv);
 int export_problem_command(int argc, const char* const* argv);
+int list_command(int argc, const char* const* argv);
 int merge_command(int argc, const char* const* argv);
+int new_external_command(int argc, const char* const* argv);
+int new_scene_command(int argc, const char* const* argv);
 int replay_command(int argc, const char* const* argv);
 int solve_command(int argc, const char* const* argv);
 int run_command(int argc, const char* const* argv);  // `bench` without a command

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bench/commands/command_line.hpp"
+#include "bench/commands/former_options.hpp"
 #include "bench/measure/build_info.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
@@ -19,15 +20,20 @@ namespace {
 
 constexpr const char* run_footer = R"(
 Other commands (each has --help)
-  {bench} solve MODEL      forces, pressure, stress and displacement of a part
-  {bench} advise           which mesh and which method give the error that you choose
-  {bench} claims DIR       the paper's sentences, checked against a results folder
-  {bench} compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
-  {bench} track            a run that is added to a history and judged
-  {bench} export DIR       tables for papers; Google Benchmark's JSON, CSV
-  {bench} export-problem   a problem's matrices, for your own solvers
-  {bench} merge DIR...     the shards of a run, joined
-  {bench} replay RECORD    one recorded case, run again
+  {bench} solve MODEL        forces, pressure, stress and displacement of a part
+  {bench} advise             which mesh and which method give the error that you choose
+  {bench} list               meshes, methods, contact solvers and studies
+  {bench} explain            stages that each case of a run has, those left out and why
+  {bench} new-scene MODEL    a scene for a model, to fill in
+  {bench} new-external NAME  another program, which runs as it is, and its declaration
+  {bench} check PROGRAM      the mistakes of another program, found by small cases
+  {bench} claims DIR         the paper's sentences, checked against a results folder
+  {bench} compare A,… B,…    two programs' runs, case by case: faster, slower, or not separated
+  {bench} track              a run that is added to a history and judged
+  {bench} export DIR         tables for papers; Google Benchmark's JSON, CSV
+  {bench} export-problem     a problem's matrices, for your own solvers
+  {bench} merge DIR...       the shards of a run, joined
+  {bench} replay RECORD      one recorded case, run again
 
 Everything after "--" goes to Google Benchmark.
 
@@ -47,9 +53,16 @@ Examples
   {bench} --mesh=Mesh0,Mesh4 --method=HYBRID,P2 --adapt=0.3% --out=results/adapted
   {bench} --mesh=Mesh0..Mesh7 --out=results/long --resume
   {bench} --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
-  {bench} --new-external=mine; {bench} --check=mine.json
   {bench} --mesh=part.geo --role=clamped=displacement --mesh-size=50%
   {bench} --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
+)";
+
+constexpr const char* explain_footer = R"(
+Options are those of a run; with --dry-run also what it will take.
+
+Examples
+  {bench} explain --mesh=Mesh0
+  {bench} explain --mesh=part.geo --scene=load.json --method='*'
 )";
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text,
@@ -160,25 +173,10 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
                "stresses, displacements, contact points (*.csv, *.vtu), total errors; =mean: the "
                "mean with admissible stresses, too; =histories: of iterations, too");
   app.option_defaults()->group("Instead of a run");
-  app.add_option("--new-scene", options.new_scene,
-                 "write MODEL.json for a model: a scene with its groups, and values to fill in");
-  app.add_option("--new-external", options.new_external,
-                 "write NAME.py and NAME.json: another program, which runs as it is, and its "
-                 "declaration");
-  app.add_option("--check", options.check,
-                 "a declaration: run its program on small cases that each find one mistake, and "
-                 "say which mistake wrong answers look like")
-      ->excludes(app.get_option("--study"))
-      ->excludes(app.get_option("--mesh"))
-      ->excludes(app.get_option("--scene"))
-      ->excludes(app.get_option("--problem"))
-      ->excludes(app.get_option("--adapt"));
-  app.add_flag("--list", options.list, "print meshes, methods, contact solvers and studies");
   app.add_flag(
       "--dry-run", options.dry_run,
       "print the cases, what they will take (from earlier records) and what is left out; with "
       "--adapt of the first level");
-  app.add_flag("--explain", options.explain, "print each case's stages, those left out and why");
 }
 
 double share_of(const std::string& option, const std::string& text, const std::string& example) {
@@ -346,14 +344,16 @@ void refuse_contradictions(const Options& options) {
 
 }  // namespace
 
-Options parse_options(int argc, const char* const* argv) {
+Options parse_options(int argc, const char* const* argv, Asked asked) {
   Options options;
   Texts texts;
-  CLI::App app(
-      "Time, memory and error of methods for stress-formulated contact with friction, for every "
-      "mesh, scene and method chosen.",
-      "{bench}");
-  app.footer(footer);
+  const bool is_run = asked == Asked::run;
+  CLI::App app(is_run ? "Time, memory and error of methods for stress-formulated contact with "
+                        "friction, for every mesh, scene and method chosen."
+                      : "The stages that each case of a run has, those left out and why. Nothing "
+                        "is solved.",
+               is_run ? "{bench}" : "{bench} explain");
+  app.footer(is_run ? footer() : explain_footer);
   app.set_version_flag("--version", std::string("airybench ") + build_info.version);
   add_cases(app, options, texts);
   add_measuring(app, options, texts);
@@ -369,7 +369,7 @@ Options parse_options(int argc, const char* const* argv) {
   for (const char* of_bodies : {"--mesh", "--scene", "--figure", "--adapt", "--fields"})
     if (!options.run.problems.empty() && given(of_bodies))
       throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
-  read_study(options.check.empty() ? texts.study : "check", options.run);
+  read_study(texts.study, options.run);
   if (!options.run.problems.empty() && given("--study") &&
       options.run.study.points != Study::Points::contact)
     throw UsageError("--study: not with --problem, which has no body (allowed: contact)");

@@ -68,7 +68,7 @@ std::vector<SceneFile> read_scenes(const RunSettings& run) {
     if (std::optional<SceneFile> own = scene_of_own_deck(run)) return {std::move(*own)};
   if (scenes.empty() && run.needs_scene && is_mesh_file(run.meshes))
     throw UsageError(
-        fmt::format("{}: a SCENE is needed ({} bench --new-scene={} writes one to fill in)",
+        fmt::format("{}: a SCENE is needed ({} bench new-scene {} writes one to fill in)",
                     shortened(run.meshes), called_as("run"), shell_word(run.meshes)));
   note_unused_deck(run);
   if (scenes.empty()) scenes.emplace_back();
@@ -236,7 +236,7 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
   for (const MeshFile& file : meshes.begin()->second)
     for (const std::string& note : file.notes)
       std::cerr << fmt::format("note: {}: {}\n", file.path.string(), note);
-  if (!options.dry_run && !options.explain)
+  if (!options.dry_run)
     for (const auto& [settings, files] : meshes) keep_models(files);
   return posed;
 }

@@ -38,8 +38,7 @@ Examples
   {bench} track --history=results/history --from=results/latest
 )";
 
-constexpr std::array refused = {"--out",  "--append",  "--study",  "--list",
-                                "--help", "--dry-run", "--explain"};
+constexpr std::array refused = {"--out", "--append", "--study", "--help", "--dry-run"};
 
 struct TrackOptions {
   fs::path history = "results/history";

@@ -322,7 +322,7 @@ Solution solve_contact_law(const Caller& caller,
     program->note(given, solution);
   if (no_G && solution.status == Status::ok)
     solution.message =
-        "G is zero but for rounding: a wrong sign of it would pass here, and fail --check";
+        "G is zero but for rounding: a wrong sign of it would pass here, and fail bench check";
   solution.linear_iterations = linear;
   if (auto& contact_s = solution.times[Stage::contact]; contact_s && solution.program)
     *contact_s -= solution.program->not_solve_s;

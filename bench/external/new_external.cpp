@@ -98,7 +98,7 @@ std::string python_with_numpy() {
                                      {limit_s});
     if (end.exit_code == 0) return python;
   }
-  throw FileError("--new-external: no python3 has NumPy (Debian: python3-numpy)");
+  throw FileError("new-external: no python3 has NumPy (Debian: python3-numpy)");
 }
 
 std::string declaration_text(const std::string& name, const std::string& python) {
@@ -118,7 +118,7 @@ std::string declaration_text(const std::string& name, const std::string& python)
 std::vector<std::filesystem::path> write_new_external(const std::filesystem::path& stem) {
   const std::string name = stem.filename().string();
   if (name.empty() || !is_plain_program_name(name))
-    throw UsageError(fmt::format("--new-external: {} (allowed: letters, digits, '-', '_' and '.')",
+    throw UsageError(fmt::format("NAME: {} (allowed: letters, digits, '-', '_' and '.')",
                                  shortened(stem.string())));
   check_problem_format("npz");
   const auto with = [&](const char* ending) { return stem.parent_path() / (name + ending); };

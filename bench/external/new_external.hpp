@@ -1,4 +1,4 @@
-// `bench --new-external=mine`: a program that runs at once, and its declaration.
+// `bench new-external mine`: a program that runs at once, and its declaration.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The true shape of a model's contact faces, and what they just touch: what --new-scene proposes
-// and a run notes where it is missing.
+// The true shape of a model's contact faces, and what they just touch: what `bench new-scene`
+// proposes and a run notes where it is missing.
 #pragma once
 
 #include <Eigen/Core>

@@ -151,7 +151,7 @@ void note_missing_roles(const BoundaryConditions& boundary, const std::string& n
     if (present.contains(role)) return;
     const std::string_view word = boundary_role_names[static_cast<std::size_t>(role)];
     std::cerr << fmt::format(
-        "note: {}: no curve has the role {}: {} (--role=CURVE={} next to --new-scene gives it)\n",
+        "note: {}: no curve has the role {}: {} (--role=CURVE={} of bench new-scene gives it)\n",
         name, word, meaning, word);
   };
   note(BoundaryRole::displacement,

@@ -94,10 +94,7 @@ struct Options {
   RunSettings run;
   Limits limits;
   Output output;
-  bool list = false, dry_run = false, explain = false;
-  std::filesystem::path check;         // a declaration: check the program for mistakes
-  std::filesystem::path new_external;  // only write a program and its declaration
-  std::filesystem::path new_scene;     // a model: only write a scene for it
+  bool dry_run = false;  // plans only: writes no mesh, adapts none
 };
 
 }  // namespace airybench

@@ -40,7 +40,7 @@ if(NOT said MATCHES "Mesh0/default/HYBRID[^\n]* ok")
   message(FATAL_ERROR "airybench: ${said}")
 endif()
 # The completion offers the program's own options and commands.
-foreach(word_and_offers IN ITEMS "--mes:--mesh --mesh-size" "ex:export export-problem")
+foreach(word_and_offers IN ITEMS "--mes:--mesh --mesh-size" "ex:explain export export-problem")
   string(REPLACE ":" ";" pair "${word_and_offers}")
   list(GET pair 0 word)
   list(GET pair 1 offers)

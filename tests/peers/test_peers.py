@@ -95,7 +95,7 @@ class PeerTest(ExportingTest):
     def test_the_harness_finds_no_mistake_in_it(self) -> None:
         if self.peer["name"] in SKIPS:
             self.skipTest("it takes none of the cases")
-        ran = subprocess.run([BENCH, f"--check={self.declaration}"], capture_output=True, text=True,
+        ran = subprocess.run([BENCH, "check", self.declaration], capture_output=True, text=True,
                              check=False)
         self.assertEqual(0, ran.returncode, ran.stdout + ran.stderr)
 

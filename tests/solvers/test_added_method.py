@@ -22,7 +22,7 @@ class AddedMethod(unittest.TestCase):
 
     def test_it_is_listed_run_recorded_and_drawn(self) -> None:
         bench = os.environ["AIRYBENCH_BENCH"]
-        self.assertIn(NAME, self.run_program(bench, "--list"))
+        self.assertIn(NAME, self.run_program(bench, "list"))
         with tempfile.TemporaryDirectory() as folder:
             self.run_program(bench, "--mesh=Mesh0,Mesh1", "--method=3STEPD*", "--repetitions=1", f"--out={folder}")
             with open(Path(folder, "results.csv"), encoding="utf-8") as file:

@@ -1,8 +1,10 @@
 // The bench command from outside: exit codes, records, output files; plan_test.cpp.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <map>
@@ -106,7 +108,7 @@ TEST(Command, TakesAUsersMeshAndScene) {
 TEST(Command, GoogleBenchmarksFilterSelectsCases) {
   const BenchCommand bench;
   const std::string filtered =
-      "--mesh=Mesh0,Mesh1 --method='3STEPD*' --explain -- --benchmark_filter='";
+      "explain --mesh=Mesh0,Mesh1 --method='3STEPD*' -- --benchmark_filter='";
   const auto cases = [&](const std::string& filter) {
     const CommandResult result = bench.run(filtered + filter + "'");
     EXPECT_EQ(result.code, 0) << result.err;
@@ -297,6 +299,25 @@ TEST(Command, EndsWithTheCallerThatDraws) {
   EXPECT_FALSE(fs::exists(bench.path("drawn")));
 }
 
+TEST(Command, OptionsThatAreCommandsNowStillWork) {
+  const BenchCommand bench;
+  const std::string called = testing::bench_executable().string();
+  for (const auto& [before, now, shown] : std::vector<std::array<std::string, 3>>{
+           {"--list", "list", "list"},
+           {"--method=HYBRID --explain -- --benchmark_filter=Mesh0",
+            "explain --method=HYBRID -- --benchmark_filter=Mesh0", "explain"},
+           {"--check none.json", "check none.json", "check none.json"},
+           {"--new-external='a b'", "new-external 'a b'", "new-external 'a b'"},
+           {"--new-scene=none.geo --role=a=force", "new-scene none.geo --role=a=force",
+            "new-scene none.geo"}}) {
+    const CommandResult old = bench.run(before), same = bench.run(now);
+    EXPECT_EQ(old.code, same.code) << before;
+    EXPECT_EQ(old.out, same.out) << before;
+    EXPECT_EQ(old.err, fmt::format("note: --{}: is now {} {} (this version still takes both)\n{}",
+                                   now.substr(0, now.find(' ')), called, shown, same.err));
+  }
+}
+
 TEST(Command, YourOwnBodyIsSolvedByTwoMethods) {
   const BenchCommand bench;
   fs::copy_file(testing::source_folder() / "bench/scenes/check/block.msh", bench.path("part.msh"));
@@ -319,9 +340,11 @@ TEST(Command, ARunSaysThatItReplacesTheRecordsOfItsFolder) {
 // As the script was typed, or else this program.
 TEST(Command, PrintedCommandsBeginWithWhatTheUserStarted) {
   const BenchCommand bench;
-  const std::string typed = testing::bench_executable().string();
-  for (const char* command : {"", "advise ", "claims ", "compare ", "export ", "export-problem ",
-                              "merge ", "replay ", "solve ", "track "}) {
+  const std::string typed = testing::bench_executable().string(), list = bench.run("--help").out;
+  for (const char* command :
+       {"", "advise ", "check ", "claims ", "compare ", "explain ", "export ", "export-problem ",
+        "list ", "merge ", "new-external ", "new-scene ", "replay ", "solve ", "track "}) {
+    EXPECT_NE(list.find("\n  " + typed + " " + command), std::string::npos) << command;
     const std::string asked = std::string(command) + "--help";
     for (const auto& [before, called] :
          {std::pair("", typed),
@@ -336,7 +359,7 @@ TEST(Command, PrintedCommandsBeginWithWhatTheUserStarted) {
 }
 
 TEST(Command, TheListIsComplete) {
-  const std::string list = BenchCommand().run("--list").out;
+  const std::string list = BenchCommand().run("list").out;
   for (const char* part :
        {"Mesh7", "HYBRID:CG", "EXTERNAL:<name>", "newton, gauss-seidel, anderson",
         "CONDENSED, the contact law alone by newton", "\n  stability ", "\n  check "})

@@ -192,7 +192,7 @@ TEST_F(SolveCommand, SingleNodesTakeOutARigidMotion) {
     EXPECT_NE(result_.err.find("is held alone: it takes out a rigid motion, and no force"),
               std::string::npos);
   }
-  EXPECT_EQ(bench_.run("--new-scene=free.inp").code, 0);
+  EXPECT_EQ(bench_.run("new-scene free.inp").code, 0);
   EXPECT_EQ(parse_json(bench_.content("free.json"))["point_supports"].dump(),
             R"([{"at_mm":[0.0,4.0],"displacement_mm":[0.0,null],"body":"Eall"}])");
   solved("free.inp free.json");

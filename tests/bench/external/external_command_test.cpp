@@ -226,7 +226,7 @@ TEST_F(ExternalCommand, ItIsListedAndReplayRefusesIt) {
   write_right();
   declare_honest();
   records_of("", 0);
-  EXPECT_TRUE(testing::contains(bench_.run("--list --external=airy.json").out, "EXTERNAL:airy"));
+  EXPECT_TRUE(testing::contains(bench_.run("list --external=airy.json").out, "EXTERNAL:airy"));
   bench_.expect_refusal("replay o:Mesh0/default/EXTERNAL:airy",
                         "o:Mesh0/default/EXTERNAL:airy: EXTERNAL:airy is another program (");
 }

@@ -13,7 +13,7 @@ using ExternalLoadSteps = testing::ExternalPrograms;
 TEST_F(ExternalLoadSteps, AreHandedToProgramsThatReadTheCondensedProblem) {
   declare("airy", "airy", "exit 1");
   declare("body", "body", "exit 1");
-  ASSERT_EQ(bench_.run("--new-external=mine").code, 0);
+  ASSERT_EQ(bench_.run("new-external mine").code, 0);
   write("scenes/path.json", R"({"load_steps": [{"displacement_mm": [0.02, -0.006]},
                                          {"displacement_mm": [0.015, 0]}]})");
   const auto records = records_of("--scene=scenes/path.json", 0);

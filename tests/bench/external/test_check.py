@@ -1,4 +1,4 @@
-"""bench --check and --new-external from outside: ten mistakes, each planted in a program, found and
+"""bench check and new-external from outside: ten mistakes, each planted in a program, found and
 named; a right program passes.
 
     AIRYBENCH_BENCH=PATH /usr/bin/python3 -m unittest FILE
@@ -43,8 +43,7 @@ class Check(unittest.TestCase):
         self.folder = Path(folder.name)
 
     def bench(self, *arguments: str) -> subprocess.CompletedProcess:
-        return subprocess.run([BENCH, *arguments], capture_output=True, text=True, check=False,
-                              cwd=self.folder, env=os.environ | {"AIRYBENCH_THEN": ""})
+        return subprocess.run([BENCH, *arguments], capture_output=True, text=True, check=False, cwd=self.folder)
 
     def declare(self, mistake: str) -> None:
         (self.folder / "mine.json").write_text(json.dumps({
@@ -57,7 +56,7 @@ class Check(unittest.TestCase):
         """Exit code, case -> its line, and the whole output."""
         if mistake not in self.checked:
             self.declare(mistake)
-            self.checked[mistake] = self.bench("--check=mine.json")
+            self.checked[mistake] = self.bench("check", "mine.json")
         ran = self.checked[mistake]
         if "this build is without" in ran.stderr:
             self.skipTest(ran.stderr)
@@ -122,18 +121,18 @@ class Check(unittest.TestCase):
         self.assertIn("all its answers look like: something in the friction law", out)
 
     def test_a_new_program_runs_and_passes(self) -> None:
-        made = self.bench("--new-external=mine")
+        made = self.bench("new-external", "mine")
         if "this build is without" in made.stderr:
             self.skipTest(made.stderr)
         self.assertEqual(made.returncode, 0, made.stderr)
-        checked = self.bench("--check=mine.json")
+        checked = self.bench("check", "mine.json")
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
         ran = self.bench("--mesh=Mesh0", "--external=mine.json", "--method=EXTERNAL:*",
                          "--repetitions=1", "--out=o")
         self.assertEqual(ran.returncode, 0, ran.stdout + ran.stderr)
 
     def test_a_new_program_refuses_problems_in_space_by_name(self) -> None:
-        made = self.bench("--new-external=mine")
+        made = self.bench("new-external", "mine")
         if "this build is without" in made.stderr:
             self.skipTest(made.stderr)
         np.savez(self.folder / "problem.npz", D=np.eye(6), G=np.zeros(6), gap=-np.ones(6), mu=np.ones(2))
@@ -144,7 +143,7 @@ class Check(unittest.TestCase):
         self.assertFalse((self.folder / "F_C.npy").exists())
 
     def test_what_a_new_program_is_printed_with_finds_its_mistakes(self) -> None:
-        made = subprocess.run([BENCH, "--new-external=mine"], capture_output=True, text=True,
+        made = subprocess.run([BENCH, "new-external", "mine"], capture_output=True, text=True,
                               check=False, cwd=self.folder,
                               env=os.environ | {"AIRYBENCH_CALLED_AS": "./run"})
         if "this build is without" in made.stderr:
@@ -155,11 +154,11 @@ class Check(unittest.TestCase):
         right = program.read_text(encoding="utf-8")
         program.write_text(right.replace("-G - gap", "G - gap"), encoding="utf-8")
         for command in commands:
-            ran = self.bench(*shlex.split(command)[2:], *([] if "--check" in command else ["--out=o"]))
+            ran = self.bench(*shlex.split(command)[2:], *([] if " check " in command else ["--out=o"]))
             self.assertEqual(ran.returncode, 1, command + ran.stdout + ran.stderr)
 
     def test_an_ok_that_does_not_depend_on_the_sign_of_G_says_so(self) -> None:
-        said = "G is zero but for rounding: a wrong sign of it would pass here, and fail --check"
+        said = "G is zero but for rounding: a wrong sign of it would pass here, and fail bench check"
         for mistake in ("RIGHT", "sign_of_G"):
             self.declare(mistake)
             ran = self.bench("--mesh=Mesh0", "--external=mine.json", "--method=EXTERNAL:*",
@@ -183,17 +182,17 @@ class Check(unittest.TestCase):
     def test_a_new_program_overwrites_nothing(self) -> None:
         for there in ("mine.py", "mine.json"):
             (self.folder / there).write_text("kept")
-            ran = self.bench("--new-external=mine")
+            ran = self.bench("new-external", "mine")
             self.assertEqual(ran.returncode, 2, ran.stdout)
             self.assertEqual(ran.stderr, f"bench: {there}: is there already (allowed: a name that "
                                          "is free)\n")
             self.assertEqual([file.name for file in self.folder.iterdir()], [there])
             (self.folder / there).unlink()
         for name in ("a b", "a,b", "x/"):
-            ran = self.bench(f"--new-external={name}")
+            ran = self.bench("new-external", name)
             self.assertEqual(ran.returncode, 2, ran.stdout)
             self.assertIn("allowed: letters, digits, '-', '_' and '.'", ran.stderr)
-        ran = self.bench("--new-external=none/mine")
+        ran = self.bench("new-external", "none/mine")
         self.assertEqual(ran.returncode, 2)
         self.assertEqual(ran.stderr.count("\n"), 1)
         self.assertEqual(list(self.folder.iterdir()), [])
@@ -212,8 +211,8 @@ class Check(unittest.TestCase):
 
     def test_wrong_use_is_refused(self) -> None:
         self.declare("RIGHT")
-        for arguments, said in {("--check=none.json",): "none.json: cannot be opened",
-                                ("--check=mine.json", "--mesh=Mesh0"): "--mesh excludes --check",
+        for arguments, said in {("check", "none.json"): "none.json: cannot be opened",
+                                ("check", "mine.json", "--mesh=Mesh0"): "not expected: --mesh=Mesh0",
                                 }.items():
             ran = self.bench(*arguments)
             self.assertEqual(ran.returncode, 2, ran.stdout)

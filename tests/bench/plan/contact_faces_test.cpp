@@ -1,4 +1,4 @@
-// What --new-scene proposes for contact faces.
+// What `bench new-scene` proposes for contact faces.
 #include <gtest/gtest.h>
 
 #include <cmath>

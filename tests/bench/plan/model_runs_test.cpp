@@ -167,7 +167,7 @@ TEST_F(ModelRuns, AMeshOfAnotherProgramIsConverted) {
 
 TEST_F(ModelRuns, ANewSceneNamesTheModelsGroups) {
   const testing::CommandResult result =
-      bench_.run("--new-scene=part.geo --role=clamped=displacement",
+      bench_.run("new-scene part.geo --role=clamped=displacement",
                  "export AIRYBENCH_CACHE_DIR=cache AIRYBENCH_CALLED_AS=../run; ");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.out,
@@ -203,9 +203,9 @@ TEST_F(ModelRuns, ANewSceneNamesTheModelsGroups) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(ran.err.find("no wall"), std::string::npos) << ran.err;
   EXPECT_LT(bench_.record()["normal_resultant_N"].get<double>(), -1);
-  bench_.expect_refusal("--new-scene=part.geo",
+  bench_.expect_refusal("new-scene part.geo",
                         "part.json: is there already (allowed: a name that is free)\n");
-  bench_.expect_refusal("--new-scene=none.geo", "none.geo: ");
+  bench_.expect_refusal("new-scene none.geo", "none.geo: ");
 }
 
 TEST_F(ModelRuns, ANewSceneGivesNamesTheRoleThatTheyMayMean) {
@@ -216,11 +216,11 @@ TEST_F(ModelRuns, ANewSceneGivesNamesTheRoleThatTheyMayMean) {
   rename("\"contact\"", "\"Contact_sole\"");
   rename("\"clamped\"", "\"top\"");
   testing::write_text(bench_.path("shoe.geo"), text);
-  const testing::CommandResult result = run("--new-scene=shoe.geo");
+  const testing::CommandResult result = run("new-scene shoe.geo");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err,
             "note: shoe.json: no curve has the role displacement: contact alone holds it "
-            "(--role=CURVE=displacement next to --new-scene gives it)\n");
+            "(--role=CURVE=displacement of bench new-scene gives it)\n");
   const Json scene = Json::parse(bench_.content("shoe.json"));
   EXPECT_EQ(scene["roles"], Json({{"Contact_sole", "contact:sole"}, {"top", "force:top"}}))
       << scene;
@@ -237,7 +237,7 @@ Curve Loop(1) = {1:4}; Curve Loop(2) = {5, 6}; Plane Surface(1) = {1, 2};
 Physical Curve("displacement") = {4};
 Physical Curve("contact") = {5, 6};
 )");
-  ASSERT_EQ(run("--new-scene=plate.geo").code, 0);
+  ASSERT_EQ(run("new-scene plate.geo").code, 0);
   const Json pin =
       Json::parse(bench_.content("plate.json"))["boundary"]["contact"]["wall"]["circle"];
   EXPECT_EQ(pin["bodies"], "outside");
@@ -258,7 +258,7 @@ Curve Loop(1) = {1:5}; Plane Surface(1) = {1};
 Physical Curve("displacement") = {5};
 Physical Curve("contact:sole") = {2, 3};
 )");
-  ASSERT_EQ(run("--new-scene=shoe.geo").code, 0);
+  ASSERT_EQ(run("new-scene shoe.geo").code, 0);
   const Json scene = Json::parse(bench_.content("shoe.json"));
   const std::string arc = "contact:sole_curve_2";
   EXPECT_EQ(scene["roles"]["2"], arc) << scene;

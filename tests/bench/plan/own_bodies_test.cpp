@@ -62,7 +62,7 @@ TEST_P(OwnBodies, RecordsCanBeReplayed) {
 // Two bodies' faces are proposed as a pair, with their shapes and without walls.
 TEST_P(OwnBodies, FacesOfDifferentBodiesAreProposedInPairs) {
   if (GetParam() != std::string("stack")) return;
-  const testing::CommandResult made = bench_.run("--new-scene=" + body(".geo"));
+  const testing::CommandResult made = bench_.run("new-scene " + body(".geo"));
   ASSERT_EQ(made.code, 0) << made.err;
   const Json scene = Json::parse(bench_.content("stack.json"));
   const std::vector<Json> expected = {Json::array({"contact:first", "contact:second_below"}),

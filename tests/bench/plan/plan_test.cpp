@@ -18,7 +18,7 @@ using testing::write_text;
 
 TEST(Plan, ListsPlansAndExplainsWithoutMeasuring) {
   const BenchCommand bench;
-  EXPECT_TRUE(testing::contains(bench.run("--list").out, "*3STEPD "));
+  EXPECT_TRUE(testing::contains(bench.run("list").out, "*3STEPD "));
   const CommandResult plan = bench.run("--mesh=Mesh0..Mesh7 --method='*' --dry-run");
   EXPECT_EQ(plan.code, 0);
   int rows = 0;
@@ -33,9 +33,9 @@ TEST(Plan, ListsPlansAndExplainsWithoutMeasuring) {
                   "Mesh7/default/3STEPD: above --memory-limit=500"),
         {"--mesh=Mesh7 --method=3STEPD --timeout=1 --dry-run",
          "Mesh7/default/3STEPD: above --timeout=1"},
-        {"--mesh=Mesh7 --explain", "] Mesh7/default/3STEPD  n_phi 50483, n_f 920, n_c 640\n"},
-        {"--mesh=Mesh0 --scene=smooth.json --explain", "n_f 116, n_c 20\n"},  // as records say it
-        {"--mesh=Mesh0 --explain", "left out  assemble F: no traction"}})
+        {"explain --mesh=Mesh7", "] Mesh7/default/3STEPD  n_phi 50483, n_f 920, n_c 640\n"},
+        {"explain --mesh=Mesh0 --scene=smooth.json", "n_f 116, n_c 20\n"},  // as records say it
+        {"explain --mesh=Mesh0", "left out  assemble F: no traction"}})
     EXPECT_TRUE(testing::contains(bench.run(arguments).out, said)) << arguments;
   EXPECT_EQ(bench.run("--help").code, 0);
   EXPECT_EQ(bench.run("--version").code, 0);
@@ -60,9 +60,9 @@ TEST(Plan, AFigureIsExactlyItsMeshesAndMethods) {
     for (const char* method :
          {"SDTIC3", "3STEPCG3", "SDTIC6", "3STEPCG6", "SSKY", "3STEPD", "ALM", "BLIND"})
       fourth.push_back(std::string(mesh) + "/default/" + method);
-  EXPECT_EQ(planned(bench.run("--figure=4 --explain").out), fourth);
-  EXPECT_EQ(planned(bench.run("--figure=5 --explain").out), fourth);
-  third = planned(bench.run("--figure=3 --explain").out);
+  EXPECT_EQ(planned(bench.run("explain --figure=4").out), fourth);
+  EXPECT_EQ(planned(bench.run("explain --figure=5").out), fourth);
+  third = planned(bench.run("explain --figure=3").out);
   EXPECT_EQ(third.size(), 36u);
   EXPECT_EQ(std::set<std::string>(third.begin(), third.end()).size(), 36u);
   for (const std::string& name : third)

@@ -204,7 +204,7 @@ TEST_F(SceneFile, ACrownIsTheCataloguesAlone) {
 
 TEST_F(SceneFile, ComplaintsOfWalls) {
   const std::string wall = R"("wall": {"flat": {"point_mm": [0, 0], "normal": [0, 1]}})";
-  // What --new-scene writes, with a wall added.
+  // What new-scene writes, with a wall added.
   EXPECT_NO_THROW(scene_of("{" + wall + R"(, "crown_radius_mm": null})", "scene"));
   expect_complaints(
       {{R"({"wall": 3})", "wall: 3 (allowed: "},

@@ -34,7 +34,7 @@ TEST_F(GivenProblemCommand, SeveralFilesAreRunUnderTheNamesOfTheirCases) {
       "--problem=fclib/problem.hdf5,other/problem.hdf5,folder --contact=newton --repetitions=1 "
       "--out=o");
   EXPECT_FALSE(std::filesystem::exists(bench_.path("drawn")));  // no body, no figure
-  EXPECT_FALSE(testing::contains(ran.out, "--fields"));  // nor a picture
+  EXPECT_FALSE(testing::contains(ran.out, "--fields"));         // nor a picture
   std::vector<std::string> names;
   for (const Json& record : bench_.records()) names.push_back(record["mesh"]);
   EXPECT_EQ(names, (std::vector<std::string>{"Mesh0-default", "Mesh1-default", "one"}));
@@ -82,8 +82,8 @@ TEST_F(GivenProblemCommand, MethodsOfBodiesAreSkipped) {
 
 TEST_F(GivenProblemCommand, PlansAreShown) {
   EXPECT_TRUE(testing::contains(run("--dry-run").out, "the run: about 0 "));
-  EXPECT_TRUE(
-      testing::contains(run("--explain").out, "[1/4] Mesh0-default/fclib/CONDENSED  n_c 40\n"));
+  EXPECT_TRUE(testing::contains(bench_.run("explain --problem=fclib/problem.hdf5").out,
+                                "[1/4] Mesh0-default/fclib/CONDENSED  n_c 40\n"));
 }
 
 TEST_F(GivenProblemCommand, WrongUseIsRefused) {

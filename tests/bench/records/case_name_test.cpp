@@ -114,7 +114,7 @@ std::multiset<std::string> names_in(const std::string& text) {
 TEST(CaseName, IsTheSameInPlanProgressTableRecordsAndFiles) {
   const testing::BenchCommand bench;
   const std::string run = "--study=error --mesh=Mesh0 --method=HYBRID --repetitions=1 ";
-  const auto planned = names_in(bench.run(run + "--explain").out);
+  const auto planned = names_in(bench.run("explain " + run).out);
   EXPECT_EQ(planned.size(), 8u);
   EXPECT_TRUE(planned.contains("Mesh0/default/HYBRID/study=error/contact_sweeps=30"));
   EXPECT_EQ(names_in(bench.run(run + "--dry-run").out), planned);

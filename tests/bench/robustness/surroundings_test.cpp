@@ -48,7 +48,7 @@ TEST(ClosedStreams, AreToldWhereTheResultGoes) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(two).code, 0);
   for (const char* arguments :
-       {"export o --format=csv", "claims o", "compare o o", "--list", "--mesh=Mesh0 --dry-run"}) {
+       {"export o --format=csv", "claims o", "compare o o", "list", "--mesh=Mesh0 --dry-run"}) {
     EXPECT_EQ(redirected(bench, arguments, ">&- 2>err.txt"), 2) << arguments;
     EXPECT_TRUE(testing::contains(bench.content("err.txt"), "bench: standard output: is closed"))
         << arguments;
@@ -60,10 +60,10 @@ TEST(FullStreams, AreTold) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(two).code, 0);
   for (const char* arguments :
-       {"--list", "--help", "--version", "compare o o", "claims o", "export o --format=csv",
+       {"list", "--help", "--version", "compare o o", "claims o", "export o --format=csv",
         "export o --format=latex", "merge o --out=m", "track --history=h --from=o",
         "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=p",
-        "--mesh=Mesh0 --method=HYBRID --dry-run", "--mesh=Mesh0 --method=HYBRID --explain",
+        "--mesh=Mesh0 --method=HYBRID --dry-run", "explain --mesh=Mesh0 --method=HYBRID",
         "replay o:1 --out=r"}) {
     EXPECT_EQ(redirected(bench, arguments, ">/dev/full 2>err.txt"), 2) << arguments;
     EXPECT_TRUE(testing::contains(bench.content("err.txt"),
@@ -85,7 +85,7 @@ TEST(FullStreams, OfErrorsEndNoRun) {
 #ifndef AIRYBENCH_SANITIZED
 TEST(AddressSpace, ThatIsTooSmallForBlasIsRefused) {
   const BenchCommand bench;
-  for (const char* arguments : {"--threads=2 ", "--list ", "compare o o "})
+  for (const char* arguments : {"--threads=2 ", "list ", "compare o o "})
     for (const char* limit : {"ulimit -v 150000; ", "ulimit -v 200000; "}) {
       const CommandResult result =
           bench.run(arguments + std::string(arguments[2] == 't' ? two : ""), limit);
@@ -112,9 +112,9 @@ TEST(Machine, WithoutProcIsNoDefectOfTheProgram) {
   if (testing::sanitized || std::system("unshare -m true 2>/dev/null") != 0)
     GTEST_SKIP() << "needs root, to take /proc away, and a program that sanitizers let do without";
   const BenchCommand bench;
-  const std::string command =
-      "cd '" + bench.path("").string() + "' && unshare -m sh -c \"umount -l /proc && '" +
-      testing::bench_executable().string() + "' --list\" >out.txt 2>err.txt";
+  const std::string command = "cd '" + bench.path("").string() +
+                              "' && unshare -m sh -c \"umount -l /proc && '" +
+                              testing::bench_executable().string() + "' list\" >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 2);
   EXPECT_EQ(bench.content("err.txt"), "bench: /proc/self/exe: No such file or directory\n");
@@ -189,7 +189,7 @@ TEST(Processes, OfAProgramInAFolderThatOthersCannotEnterSayWhatIsMissing) {
       << bench.content("err.txt");
   std::filesystem::permissions(bench.path("bin"), std::filesystem::perms::owner_all);
   std::filesystem::permissions(bench.path("share"), std::filesystem::perms::owner_all);
-  EXPECT_EQ(testing::run_as_user(bench, "exec /proc/self/fd/9 --list"), 2);
+  EXPECT_EQ(testing::run_as_user(bench, "exec /proc/self/fd/9 list"), 2);
   EXPECT_EQ(bench.content("err.txt"),
             "bench: " + bench.path("share/airybench/meshes").string() +
                 ": the program's data cannot be read: Permission denied\n");
