@@ -17,7 +17,7 @@
 namespace airybench {
 namespace {
 
-constexpr const char* made_by = "airybench converts models, 5";  // another number: other meshes
+constexpr const char* made_by = "airybench converts models, 6";  // another number: other meshes
 
 std::filesystem::path folder_of_variable(const char* name) {
   const char* value = std::getenv(name);
