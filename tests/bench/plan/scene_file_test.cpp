@@ -326,8 +326,11 @@ TEST_F(SceneFile, WhatIsReadIsWritten) {
             R"("wall":{"circle":{"centre_mm":[0.0,1.0],"radius_mm":2.0,)"
             R"("bodies":"outside"}},"face":{"polyline":[[0.0,0.0],[1.0,1.0]]}}},)"
             R"("contacts":[{"between":["contact:b","contact:c"]}],"load_steps":)"
-            R"([{"contacts":[{"between":["contact:b","contact:c"],"clearance_mm":1.0}]}]})")})
-    EXPECT_EQ(scene_file_of(text, "scene").definition(), text);
+            R"([{"contacts":[{"between":["contact:b","contact:c"],"clearance_mm":1.0}]}]})")}) {
+    const airybench::SceneFile file = scene_file_of(text, "scene");
+    EXPECT_EQ(file.definition(), text);
+    EXPECT_EQ(scene_file_of(file.text(), "scene").definition(), text);
+  }
   // Keys that were given stay, whatever their values.
   EXPECT_EQ(scene_file_of(R"({"friction": 0.2, "plane": "strain"})", "scene").definition(),
             R"({"plane":"strain","friction":0.2})");
