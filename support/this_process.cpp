@@ -55,7 +55,8 @@ Interrupted::Interrupted(int number)
     : std::runtime_error("ended by " + signal_name(number)), signal(number) {}
 
 void catch_interrupts() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_interrupt);
+  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 
 void interrupt_with_caller() { prctl(PR_SET_PDEATHSIG, SIGHUP); }

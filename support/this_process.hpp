@@ -16,7 +16,7 @@ void require_standard_output();
 // Why stack (ulimit -s) or free descriptors (ulimit -n) are too few for any command; "" if not.
 std::string lack_of_stack_or_descriptors();
 
-// Ctrl-C, SIGTERM or SIGHUP; what() names it. The results so far are on disk.
+// Ctrl-C, SIGTERM or, but for nohup, SIGHUP; what() names it. The results so far are on disk.
 struct Interrupted : std::runtime_error {
   explicit Interrupted(int number);
   int signal;

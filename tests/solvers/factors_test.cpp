@@ -135,10 +135,6 @@ Eigen::MatrixXd random_skyline(int n, const std::function<int(int i)>& first) {
   return A;
 }
 
-Eigen::MatrixXd random_dense(int n) {
-  return random_skyline(n, [](int) { return 0; });
-}
-
 SkylineFactor skyline_factor(const Eigen::MatrixXd& A, int panel_rows,
                              const Deadline& deadline = {}) {
   return factor_ldlt(analyse_skyline(lower_of(A), panel_rows), lower_of(A), deadline);
