@@ -62,14 +62,15 @@ std::vector<bool> held_by_curves(const Problem& problem, const MeshPieces& piece
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
     if (edge.role != BoundaryRole::displacement) continue;
-    const auto [a, b] = edge.vertices;
-    const EdgeFrame chord = edge_frame(mesh.vertices[a], mesh.vertices[b]);
+    const EdgeFrame chord =
+        edge_frame(mesh.vertices[edge.vertices[0]], mesh.vertices[edge.vertices[1]]);
+    Eigen::Matrix3d& of_piece = sum[pieces.of_vertex[edge.vertices[0]]];
     for (const double s : {0., 0.5, 1.}) {
       const Eigen::Vector2d d = (point_on(mesh, edge, s) - centre) / size,
                             n = edge.curve.is_straight() ? chord.normal : edge.curve.normal(s);
       const auto hold = [&](const Eigen::Vector2d& along) {
         const Eigen::Vector3d r(along.x(), along.y(), d.x() * along.y() - d.y() * along.x());
-        sum[pieces.of_vertex[a]] += r * r.transpose();
+        of_piece += r * r.transpose();
       };
       hold(n);
       if (!problem.is_roller(row)) hold({-n.y(), n.x()});

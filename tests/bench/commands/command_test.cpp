@@ -283,6 +283,7 @@ TEST(Command, EndsWithTheCallerThatDraws) {
   const BenchCommand bench;
   const pid_t caller = fork();
   if (caller == 0) {
+    std::signal(SIGHUP, SIG_DFL);  // nohup may have started the tests
     const std::string command =
         "cd '" + bench.path("").string() + "' && export AIRYBENCH_TO_DRAW=drawn; '" +
         testing::bench_executable().string() +

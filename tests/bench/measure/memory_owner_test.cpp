@@ -244,9 +244,10 @@ TEST_P(CountedMemory, IsWhatIsMeasured) {
   const auto whole = static_cast<double>(heap::peak_ever_bytes());
   EXPECT_NEAR(at_peak, static_cast<double>(record.peak_heap_bytes.value()), whole / 500);
   EXPECT_GT(record.heap_allocated_bytes.value(), record.storage_bytes.value() / 2);
-  EXPECT_GE(record.peak_heap_bytes.value(),
-            record.storage_bytes.value() +
-                record.memory_by_owner.at("blocks").at("held_bytes").get<std::int64_t>());
+  const auto of_blocks = record.memory_by_owner.at("blocks").at("held_bytes").get<std::int64_t>();
+  if (method.name != "3STEPD:FILE") {  // whose factor is in a file
+    EXPECT_GE(record.peak_heap_bytes.value(), record.storage_bytes.value() + of_blocks);
+  }
 }
 
 }  // namespace

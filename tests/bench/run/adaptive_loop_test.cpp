@@ -9,7 +9,7 @@
 #include <set>
 
 #include "mesh/arcs.hpp"
-#include "support/errors.hpp"
+#include "mesh/quality.hpp"
 #include "tests/bench/verify/solved.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/mesh_checks.hpp"
@@ -210,11 +210,6 @@ TEST(AdaptiveLoop, SaysWhyItEndsBefore) {
   EXPECT_FALSE(level->error);
   EXPECT_TRUE(testing::contains(flawed.why_ended(), "through the wall"));
   EXPECT_FALSE(flawed.next());
-}
-
-TEST(AdaptiveLoop, AMethodWithoutEdgeDisplacementsIsRefused) {
-  AdaptiveLoop loop({}, testing::small_tooth(6, 5), select_methods("P2").front(), until(0.01));
-  EXPECT_THROW(loop.next(), UsageError);
 }
 
 }  // namespace
