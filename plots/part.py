@@ -95,10 +95,13 @@ def read_part(results: Path) -> Part:
             raise RecordsError(f"{path(part)}: not as bench solve writes it {error}".rstrip()) from None
         return read
 
+    answer = json_of(text_of(path("answer.json")), str(path("answer.json")))
+    if "point_supports" not in answer:
+        raise RecordsError(f"{path('answer.json')}: of an earlier bench; expected the present one's: solve it again")
     stress = table("von_mises.csv", "third")
     faces = pd.read_csv(path("faces.csv"))
-    return Part(shown, json_of(text_of(path("answer.json")), str(path("answer.json"))),
-                stress.to_numpy()[:, 1:].reshape(stress.third.iat[-1], -1, 3), table("outline.csv", "edge"), faces)
+    return Part(shown, answer, stress.to_numpy()[:, 1:].reshape(stress.third.iat[-1], -1, 3),
+                table("outline.csv", "edge"), faces)
 
 
 def cells_of(points: int) -> np.ndarray:

@@ -115,6 +115,8 @@ class PartTest(FolderTest):
         write_part(self.results)
         write(self.results, "outline.csv", ["edge,x_mm", "1,0", "2,0", "2,0"])
         self.assert_refused("block--HYBRID.outline.csv: not as bench solve writes it")
+        write(self.results, "answer.json", ['{"faces": []}'])
+        self.assert_refused("block--HYBRID.answer.json: of an earlier bench")
 
     def test_the_page_stands_alone(self) -> None:
         if not CHROMIUM:
