@@ -98,7 +98,7 @@ def draw_block(axes: Axes, lines: dict[str, list[Row]], looks: PlainLooks, quant
     log_log(axes, xlim=log_limits([row.n_phi for row in rows], 1.25),
             ylim=log_limits(value for _, value, _ in quantity.marked(rows)))
     axes.set_ylabel(quantity.axis)
-    axes.yaxis.set_label_coords(-0.44 / width_in(axes), 0.5)
+    axes.yaxis.set_label_coords(-0.49 / width_in(axes), 0.5)
     axes.set_xlabel(r"$n_\varphi$", fontsize=MATH, labelpad=2)
     axes.grid(axis="y")
     mark_meshes(axes, {row.mesh: row.n_phi for row in rows}, 45, TYPE)
