@@ -40,7 +40,8 @@ class Messages(io.TextIOBase):
         return len(text)
 
     def flush(self) -> None:
-        self.stream.flush()
+        if not self.stream.closed:  # at the end of the program; Python 3.13 tells what fails there
+            self.stream.flush()
 
 
 @contextlib.contextmanager

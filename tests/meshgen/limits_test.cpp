@@ -100,9 +100,9 @@ TEST_F(Limits, TrianglesAreThoseOfTheBody) {
   testing::write_text(folder / "part.geo",
                       "SetFactory(\"OpenCASCADE\"); Rectangle(1) = {0, 0, 0, 2000, 1};\n"
                       "Rectangle(2) = {0, 0, 0, 1, 2000}; BooleanUnion{ Surface{1}; Delete; }"
-                      "{ Surface{2}; Delete; }\nMesh.MeshSizeMax = 0.5;\n");
-  const testing::MeshgenOutcome outcome =
-      run("--convert=part.geo --out=out.msh --role=1=displacement");
+                      "{ Surface{2}; Delete; }\nMesh.MeshSizeMax = 0.5;\n"
+                      "Physical Curve(\"displacement\") = Boundary{ Surface{:}; };\n");
+  const testing::MeshgenOutcome outcome = run("--convert=part.geo --out=out.msh");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err.find("triangles"), std::string::npos) << outcome.err;
 }
