@@ -32,7 +32,7 @@ using namespace airybench;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* mesh_names[] = {"Mesh3", "Mesh5", "Mesh7"};
-constexpr int most_refinements_of_Mesh7 = 2;
+constexpr int max_refinements_of_Mesh7 = 2;
 constexpr Eigen::Index dgemm_size = 1024;
 constexpr Eigen::Index right_hand_sides = 384;
 constexpr int repetitions = 5;
@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
     add("skyline factor/" + mesh, [mesh](benchmark::State& s) { skyline_factor(s, mesh); });
     add("skyline solve/" + mesh, [mesh](benchmark::State& s) { skyline_solve(s, mesh); });
   }
-  for (int k = 0; k <= most_refinements_of_Mesh7; ++k)
+  for (int k = 0; k <= max_refinements_of_Mesh7; ++k)
     add("multifrontal factor/Mesh7" + (k > 0 ? "+refine" + std::to_string(k) : ""),
         [k](benchmark::State& s) { multifrontal_factor(s, k); });
   benchmark::RunSpecifiedBenchmarks();

@@ -57,7 +57,7 @@ class Chords {
 
   // The circle that the vertices from first to last lie on.
   std::optional<Circle> circle_of(int first, int last) const {
-    constexpr double least_sagitta = 20;  // of the tolerance, or it is straight
+    constexpr double min_sagitta = 20;  // of the tolerance, or it is straight
     const int n = last - first, third = x(first) == x(last) ? n / 3 : n / 2;
     const auto circle = circle_through(x(first), x(first + third), x(first + 2 * third));
     if (!circle) return {};
@@ -73,7 +73,7 @@ class Chords {
         return {};
     }
     const double whole = (x(first + third) - x(first)).norm();
-    if (whole * whole / (8 * circle->radius_mm) < least_sagitta * tolerance_mm_) return {};
+    if (whole * whole / (8 * circle->radius_mm) < min_sagitta * tolerance_mm_) return {};
     return circle;
   }
   // From and to a vertex; none: both are the end.

@@ -17,7 +17,7 @@ class Bisection {
         across_(mesh_.triangles.size()),
         origin_(mesh_.triangles.size()),
         cuts_(mesh_.triangles.size(), 0),
-        least_mm_(shortest_divisible_edge(mesh_)) {
+        min_mm_(shortest_divisible_edge(mesh_)) {
     std::iota(origin_.begin(), origin_.end(), 0);
     const MeshEdges edges = number_edges(mesh_);
     std::vector<int> first(static_cast<std::size_t>(edges.count()), none);
@@ -147,7 +147,7 @@ class Bisection {
     const Eigen::Vector2d m = edge.curve.at(0.5);
     const double half = cross_area(a, b, c) / 2;
     return cross_area(a, m, c) > least * half && cross_area(m, b, c) > least * half &&
-           (b - a).norm() > least_mm_;
+           (b - a).norm() > min_mm_;
   }
 
   // abc with side k = ab becomes a m c, and m b c behind all others, whose number is returned. Side
@@ -171,7 +171,7 @@ class Bisection {
   Mesh mesh_;
   std::vector<std::array<int, 3>> across_;  // per triangle and side: the neighbour, or beyond(row)
   std::vector<int> origin_, cuts_;          // per triangle: of its TrianglePart
-  double least_mm_;
+  double min_mm_;
   std::vector<int> path_;
   std::int64_t visits_ = 0;
 };
@@ -186,12 +186,12 @@ double shortest_divisible_edge(const Mesh& mesh) {
 }
 
 BisectedMesh bisected(const Mesh& mesh, const std::function<bool(const TrianglePart&)>& is_due) {
-  const double least_mm = shortest_divisible_edge(mesh);
+  const double min_mm = shortest_divisible_edge(mesh);
   Bisection bisection(mesh);
   BisectedMesh result;
   for (int t = 0; t < bisection.triangles(); ++t) {  // and those that are born on the way
     bool due = is_due(bisection.part(t));
-    while (due && bisection.longest_edge(t) > least_mm) {
+    while (due && bisection.longest_edge(t) > min_mm) {
       bisection.cut(t);
       due = is_due(bisection.part(t));
     }

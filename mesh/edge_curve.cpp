@@ -73,11 +73,11 @@ EdgeCurve EdgeCurve::between(double first, double last) const {
 }
 
 double EdgeCurve::parameter_on_line(const Eigen::Vector2d& p, const Eigen::Vector2d& d) const {
-  constexpr int most_steps = 20;
+  constexpr int max_steps = 20;
   constexpr double rounding = 1e-15;
   const double across = cross(chord(), d);
   double t = cross(p - points_mm.front(), d) / across;  // on the chord
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const double miss = cross(at(t) - p, d);
     if (std::abs(miss) <= rounding * std::abs(across)) break;
     t -= miss / cross(derivative(t), d);

@@ -22,12 +22,12 @@ std::vector<double> interfaces_of(const Mesh& mesh, const Layers& layers,
 void check_values(const Layers& layers) {
   if (!layers.normal.allFinite() || layers.normal.isZero(0))
     refuse("normal", shown(layers.normal), "(allowed: a direction, not [0, 0])");
-  if (layers.count < 0 || layers.count > most_layers)
+  if (layers.count < 0 || layers.count > max_layers)
     refuse("count", layers.count,
-           "(allowed: a whole number from 0 to " + std::to_string(most_layers) + ")");
-  if (layers.interfaces_mm.size() >= most_layers)
+           "(allowed: a whole number from 0 to " + std::to_string(max_layers) + ")");
+  if (layers.interfaces_mm.size() >= max_layers)
     refuse("interfaces_mm", layers.interfaces_mm.size(),
-           "interfaces (allowed: fewer than " + std::to_string(most_layers) + ")");
+           "interfaces (allowed: fewer than " + std::to_string(max_layers) + ")");
   for (std::size_t k = 0; k < layers.interfaces_mm.size(); ++k)
     if (!std::isfinite(layers.interfaces_mm[k]) ||
         (k > 0 && !(layers.interfaces_mm[k] > layers.interfaces_mm[k - 1])))

@@ -12,12 +12,12 @@ namespace airybench {
 // their interfaces; neither: the mesh keeps its bodies.
 struct Layers {
   Eigen::Vector2d normal = {1, 0};    // not zero; any length
-  int count = 0;                      // 0 to most_layers; used when there are no interfaces
+  int count = 0;                      // 0 to max_layers; used when there are no interfaces
   std::vector<double> interfaces_mm;  // n·x with n = normal/|normal|, ascending
 
   bool none() const { return count == 0 && interfaces_mm.empty(); }
 };
-inline constexpr int most_layers = 1000;
+inline constexpr int max_layers = 1000;
 
 // Throws TransformError when a value is impossible on any mesh.
 void check_values(const Layers& layers);

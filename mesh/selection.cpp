@@ -16,7 +16,7 @@ namespace {
   throw std::invalid_argument("mesh '" + shortened(item) + "': " + why +
                               " (valid: Mesh0..Mesh7, a list Mesh0,Mesh3, a range Mesh1..Mesh4, "
                               "a glob Mesh[0-3], any of these with +refine1 … +refine" +
-                              std::to_string(most_named_refinements) + ", or files *.msh, " +
+                              std::to_string(max_named_refinements) + ", or files *.msh, " +
                               std::string(model_extensions) + ")");
 }
 
@@ -65,7 +65,7 @@ std::optional<RefinedName> parse_refined_name(std::string_view name) {
   const auto at = name.find('+');
   if (at == 0 || at == name.npos || name.size() != at + suffix.size() + 1) return {};
   const int times = name.back() - '0';
-  if (name.substr(at, suffix.size()) != suffix || times < 1 || times > most_named_refinements)
+  if (name.substr(at, suffix.size()) != suffix || times < 1 || times > max_named_refinements)
     return {};
   return RefinedName{name.substr(0, at), times};
 }

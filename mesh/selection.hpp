@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 8> catalogue_mesh_names = {
 std::vector<std::string> expand_mesh_selection(std::string_view argument);
 
 // "Mesh3+refine2" parted: "Mesh3", 2. Without a suffix, or with another one, none.
-inline constexpr int most_named_refinements = 6;
+inline constexpr int max_named_refinements = 6;
 struct RefinedName {
   std::string_view name;
   int times;

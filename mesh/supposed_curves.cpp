@@ -47,7 +47,7 @@ class SidesOfChain {
 
  private:
   static constexpr double degree = std::numbers::pi / 180, in_line = 0.2 * degree,
-                          most_turn = 36 * degree;
+                          max_turn = 36 * degree;
   static constexpr int fewest_sides = 5;
 
   Eigen::Vector2d along(int k) const {
@@ -65,16 +65,16 @@ class SidesOfChain {
     return 2 * turn(before, after) / (before.along.norm() + after.along.norm());
   }
   bool goes_on(int first, int side) const {
-    constexpr double most_of_lengths = 4, most_of_curvatures = 2.5;
+    constexpr double max_of_lengths = 4, max_of_curvatures = 2.5;
     const auto are_alike = [](double a, double b, double most) {  // of one sign, too
       return a * b > 0 && std::abs(a) <= most * std::abs(b) && std::abs(b) <= most * std::abs(a);
     };
     const StraightSide &before = sides_[side - 1], &after = sides_[side];
     return !is_bent(side - 1) && !is_bent(side) && are_one_group(before.last - 1, after.first) &&
-           std::abs(turn(before, after)) <= most_turn &&
-           are_alike(before.along.norm(), after.along.norm(), most_of_lengths) &&
+           std::abs(turn(before, after)) <= max_turn &&
+           are_alike(before.along.norm(), after.along.norm(), max_of_lengths) &&
            (side - 1 == first ||
-            are_alike(curvature_before(side - 1), curvature_before(side), most_of_curvatures));
+            are_alike(curvature_before(side - 1), curvature_before(side), max_of_curvatures));
   }
   // From a side to the curve at its end.
   double to_tangent(int side, int other) const {

@@ -49,10 +49,10 @@ void check_can_be_told_apart(const Mesh& mesh, double longest_mm, double ratio) 
 
 void check_triangles(const Mesh& mesh, int refinements) {
   const std::size_t fine = mesh.triangles.size() << (2 * refinements);
-  if (fine > most_triangles)
+  if (fine > max_triangles)
     refuse("refine", refinements,
            "(the mesh " + mesh.name + " would have " + std::to_string(fine) +
-               " triangles; allowed: up to " + std::to_string(most_triangles) + ")");
+               " triangles; allowed: up to " + std::to_string(max_triangles) + ")");
 }
 
 // Where the sliver's vertex goes in a triangle.
@@ -108,9 +108,9 @@ void keep_middle(Mesh& mesh, BoundaryRole role, std::optional<int> kept, Boundar
 }  // namespace
 
 void check_values(const MeshTransform& transform) {
-  if (transform.refine < 0 || transform.refine > most_refinements)
+  if (transform.refine < 0 || transform.refine > max_refinements)
     refuse("refine", transform.refine,
-           "(allowed: a whole number from 0 to " + std::to_string(most_refinements) + ")");
+           "(allowed: a whole number from 0 to " + std::to_string(max_refinements) + ")");
   if (transform.grade) {
     if (!transform.grade->at_mm.allFinite())
       refuse("grade: at_mm", shown(transform.grade->at_mm), "(allowed: finite numbers)");

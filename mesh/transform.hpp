@@ -42,7 +42,7 @@ struct Slivers {
 
 struct MeshTransform {
   bool polygon = false;
-  int refine = 0;  // 0 to most_refinements
+  int refine = 0;  // 0 to max_refinements
   std::optional<Grading> grade;
   std::optional<Slivers> slivers;
   double scale = 1;                            // > 0
@@ -52,8 +52,8 @@ struct MeshTransform {
   std::optional<int> keep_displacement_edges;  // ≥ 1: something must hold the body
   std::optional<int> keep_force_edges;         // ≥ 0
 };
-inline constexpr int most_refinements = 6;
-inline constexpr std::size_t most_triangles = 1'000'000;  // that `refine` makes
+inline constexpr int max_refinements = 6;
+inline constexpr std::size_t max_triangles = 1'000'000;  // that `refine` makes
 
 // Throws TransformError when a value is impossible on any mesh.
 void check_values(const MeshTransform& transform);

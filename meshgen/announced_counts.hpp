@@ -6,7 +6,7 @@
 namespace airybench {
 
 // Most of what a file may ask for in few bytes: numbers of a list, lines and members of a deck.
-inline constexpr std::size_t most_entries = 10'000'000;
+inline constexpr std::size_t max_entries = 10'000'000;
 
 // Of MSH, VTK, Medit, or STL files. Throws InputError: there cannot be so many.
 void refuse_counts_beyond(const std::string& text, bool is_stl = false);

@@ -78,7 +78,7 @@ std::vector<std::size_t> SideNodes::between(std::size_t from, std::size_t to) co
 
 std::optional<EdgeCurve> curve_through(const std::vector<Eigen::Vector2d>& points_mm,
                                        double mm_per_unit) {
-  constexpr double most_of_sagitta = 0.01;
+  constexpr double max_of_sagitta = 0.01;
   const std::size_t most = EdgeCurve::max_degree + 1, stride = points_mm.size() > most ? 2 : 1;
   std::vector<Eigen::Vector2d> points;
   for (std::size_t k = 0; k < points_mm.size(); k += stride) points.push_back(points_mm[k]);
@@ -87,7 +87,7 @@ std::optional<EdgeCurve> curve_through(const std::vector<Eigen::Vector2d>& point
   if (curve.sagitta() <= rounding_of_points(points, mm_per_unit)) return EdgeCurve{};
   for (std::size_t k = 1; stride == 2 && k < points_mm.size(); k += 2) {
     const double t = static_cast<double>(k) / static_cast<double>(points_mm.size() - 1);
-    if ((curve.at(t) - points_mm[k]).norm() > most_of_sagitta * curve.sagitta()) return {};
+    if ((curve.at(t) - points_mm[k]).norm() > max_of_sagitta * curve.sagitta()) return {};
   }
   return curve;
 }

@@ -226,7 +226,7 @@ class DeckReader {
 
   void count_members(std::size_t more, const DeckLine& line) {
     members_ += more;
-    if (members_ > most_entries)
+    if (members_ > max_entries)
       line.fail("all sets together have more than 1e7 members (allowed: up to that)");
   }
 

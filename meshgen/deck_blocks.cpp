@@ -37,7 +37,7 @@ class BlockReader {
     bool goes_on = false;  // a keyword's line that ends with a comma
     for (std::string line; std::getline(lines, line);) {
       ++number;
-      if (++lines_ > most_entries) throw InputError(too_many_lines);
+      if (++lines_ > max_entries) throw InputError(too_many_lines);
       line.erase(0, std::min(line.find_first_not_of(" \t"), line.size()));
       if (line.starts_with("**") || line.find_first_not_of(" \t\r") == line.npos) continue;
       const DeckLine here{line, fmt::format("{}line {}", prefix, number)};
@@ -144,7 +144,7 @@ DeckFile with_instances(std::vector<DeckBlock> blocks) {
     } else if (block.keyword != "ASSEMBLY" && block.keyword != "END ASSEMBLY") {
       block.instance = instance;
       lines += (1 + block.data.size()) * (part != nullptr ? part->instances : 1);
-      if (lines > most_entries) throw InputError(too_many_lines);
+      if (lines > max_entries) throw InputError(too_many_lines);
       (part != nullptr ? part->blocks : file.blocks).push_back(std::move(block));
     }
   }

@@ -12,7 +12,7 @@
 namespace airybench {
 namespace {
 
-constexpr std::size_t most_steps = 1000;
+constexpr std::size_t max_steps = 1000;
 
 // Times and factors.
 using Amplitude = std::vector<std::array<double, 2>>;
@@ -77,8 +77,8 @@ class StepReader {
         if (const auto fields = line.fields(); fields.size() > 1 && !fields[1].empty())
           duration_ = line.number(fields[1]);
       } else if (block.keyword == "END STEP") {
-        if (states.size() == most_steps)
-          block.line.fail(fmt::format("more than {} steps (allowed: up to that)", most_steps));
+        if (states.size() == max_steps)
+          block.line.fail(fmt::format("more than {} steps (allowed: up to that)", max_steps));
         states.push_back(state_);
       } else {
         take(block);

@@ -204,7 +204,7 @@ void refuse_long_lists(const std::vector<Token>& tokens, const std::filesystem::
     double step = 1;
     if (next < tokens.size() && tokens[next].is(":"))
       step = number_at(tokens, ++next).value_or(step);
-    if (last && !is_loop && !(std::abs((*last - *first) / step) <= most_entries))
+    if (last && !is_loop && !(std::abs((*last - *first) / step) <= max_entries))
       throw FileError(
           fmt::format("{}: a list of the numbers {:g} to {:g} (allowed: up to 1e7 numbers)",
                       file.string(), *first, *last));

@@ -88,7 +88,7 @@ class MedFile {
  private:
   template <typename Value, typename TypeOf>
   std::vector<Value> read(const std::string& path, const TypeOf& type_of) const {
-    constexpr std::size_t most_bytes = 2'000'000'000;
+    constexpr std::size_t max_bytes = 2'000'000'000;
     if (!has(path)) throw InputError(fmt::format("there is no {}", path));
     const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose),
         space(H5Dget_space(set), H5Sclose), made(H5Dget_create_plist(set), H5Pclose),
@@ -97,7 +97,7 @@ class MedFile {
       throw InputError(fmt::format("{} is in another file", path));
     const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
     const std::size_t bytes = count * H5Tget_size(type);
-    if (count > most_bytes || bytes > most_bytes || H5Dget_storage_size(set) == 0)
+    if (count > max_bytes || bytes > max_bytes || H5Dget_storage_size(set) == 0)
       throw InputError(fmt::format("{}: {} values (allowed: up to 2 GB)", path, count));
     std::vector<Value> values(bytes / sizeof(Value));
     if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)

@@ -44,8 +44,8 @@ void set_size(const std::string& text, ModelOptions& options) {
   const bool is_factor = text.ends_with('%');
   const std::optional<double> number =
       parse_number(is_factor ? text.substr(0, text.size() - 1) : text);
-  constexpr double least_percent = 0.01;  // 1e8 triangles for each
-  if (!number || !(*number > 0 && *number <= most) || (is_factor && *number < least_percent))
+  constexpr double min_percent = 0.01;  // 1e8 triangles for each
+  if (!number || !(*number > 0 && *number <= most) || (is_factor && *number < min_percent))
     refuse_argument("--mesh-size", text,
                     "the longest edge in mm, as 0.5, or a part of the model's sizes, as 50%, of "
                     "0.01% or more");

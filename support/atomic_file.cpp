@@ -26,11 +26,11 @@ constexpr std::size_t part_digits = 20;
 }
 
 fs::path end_of_links(const fs::path& file) {
-  constexpr int most_links = 40;  // the kernel's limit
+  constexpr int max_links = 40;  // the kernel's limit
   fs::path target = file;
   std::error_code error;
   for (int links = 0; fs::is_symlink(target, error); ++links) {
-    if (links == most_links) fail_to_write(file, ELOOP);
+    if (links == max_links) fail_to_write(file, ELOOP);
     target = target.parent_path() / fs::read_symlink(target, error);  // absolute: it alone
   }
   return target;

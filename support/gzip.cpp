@@ -40,9 +40,9 @@ class Inflation {
         throw FileError(file_ + ": is not of gzip, or damaged");
       const std::size_t size = part_.size() - stream_.avail_out;
       bytes_ += size;
-      if (bytes_ > most_bytes)
+      if (bytes_ > max_bytes)
         throw FileError(file_ + ": unpacks to more than 1 GiB (allowed: up to 1 GiB)");
-      if (bytes_ > any_bytes && bytes_ / most_times > packed_bytes_)
+      if (bytes_ > any_bytes && bytes_ / max_times > packed_bytes_)
         throw FileError(file_ +
                         ": unpacks to more than 200 times its length (allowed: up to that)");
       take_({part_.data(), size});
@@ -53,8 +53,8 @@ class Inflation {
   }
 
  private:
-  static constexpr std::size_t most_bytes = std::size_t{1} << 30;
-  static constexpr std::size_t any_bytes = std::size_t{1} << 26, most_times = 200;
+  static constexpr std::size_t max_bytes = std::size_t{1} << 30;
+  static constexpr std::size_t any_bytes = std::size_t{1} << 26, max_times = 200;
   std::string file_;
   const Take& take_;
   z_stream stream_ = {};

@@ -64,8 +64,8 @@ struct Messages {
 
   // Of the next character, escaped.
   std::string cut(const std::string& shown) {
-    constexpr std::size_t most_of_word = 400, most_of_line = 4000;
-    const auto is_over = [&] { return word > most_of_word || line > most_of_line; };
+    constexpr std::size_t max_of_word = 400, max_of_line = 4000;
+    const auto is_over = [&] { return word > max_of_word || line > max_of_line; };
     const bool was_over = is_over();
     word = shown == " " || shown == "\t" || shown == "\n" ? 0 : word + shown.size();
     line = shown == "\n" ? 0 : line + shown.size();

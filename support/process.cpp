@@ -218,7 +218,7 @@ bool ChildProcess::is_stopped() const {
 
 std::optional<std::string> ChildProcess::ask(const std::string& line, const GiveUp& give_up) {
   if (pid_ < 0) return {};
-  constexpr int most_stopped_ms = 5000;
+  constexpr int max_stopped_ms = 5000;
   int stopped_ms = 0;
   Ticks ticks;
   was_suspended_ = false;
@@ -226,7 +226,7 @@ std::optional<std::string> ChildProcess::ask(const std::string& line, const Give
     const Ticks::Tick tick = ticks.next();
     stopped_ms = is_stopped() ? stopped_ms + poll_ms : 0;
     was_suspended_ |= tick.is_late || stopped_ms > 0;
-    end_.stopped = stopped_ms > most_stopped_ms;
+    end_.stopped = stopped_ms > max_stopped_ms;
     end_.timed_out = give_up(tick.suspended_s);
     return end_.stopped || end_.timed_out;
   };

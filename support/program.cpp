@@ -60,9 +60,9 @@ std::vector<pid_t> descendants(pid_t of, const std::vector<pid_t>& except = {}) 
 // Repeats because a process may start another while they are killed.
 void end_descendants(const std::vector<pid_t>& except,
                      const std::function<void(pid_t, int status)>& reaped) {
-  constexpr int most_tries = 5000;  // another user's process cannot be killed
+  constexpr int max_tries = 5000;  // another user's process cannot be killed
   std::vector<pid_t> left;
-  for (int k = 0; k < most_tries && !(left = descendants(getpid(), except)).empty(); ++k) {
+  for (int k = 0; k < max_tries && !(left = descendants(getpid(), except)).empty(); ++k) {
     for (const pid_t process : left) {
       kill(process, SIGKILL);
       int status = 0;

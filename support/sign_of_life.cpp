@@ -22,11 +22,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::string_view start_of_sign = "... ";
 
-double most_silent_s() {
-  constexpr double preset_s = 10, least_s = 0.01;
+double max_silent_s() {
+  constexpr double preset_s = 10, min_s = 0.01;
   const char* const given = std::getenv("AIRYBENCH_SILENT_S");
   const std::optional<double> seconds = parse_number(given != nullptr ? given : "");
-  return std::max(seconds.value_or(preset_s), least_s);
+  return std::max(seconds.value_or(preset_s), min_s);
 }
 
 auto& last() {
@@ -39,7 +39,7 @@ void print(const std::string& line) { std::cerr << line + "\n" << std::flush; }
 }  // namespace
 
 void sign_of_life(const std::function<std::string()>& what) {
-  if (seconds_since(last()) < most_silent_s()) return;
+  if (seconds_since(last()) < max_silent_s()) return;
   print(what());
   was_heard();
 }
@@ -50,7 +50,7 @@ SignsOfLife::SignsOfLife(const std::string& what) {
   const auto tell = [&](Channel&) {
     const Clock::time_point start = Clock::now();
     for (;;) {
-      std::this_thread::sleep_for(std::chrono::duration<double>(most_silent_s()));
+      std::this_thread::sleep_for(std::chrono::duration<double>(max_silent_s()));
       print(fmt::format("{}{}, for {}", start_of_sign, what, show_duration(seconds_since(start))));
     }
   };

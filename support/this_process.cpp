@@ -83,20 +83,20 @@ void require_standard_output() {
 }
 
 std::string lack_of_stack_or_descriptors() {
-  constexpr rlim_t least_stack = 1024 * 1024;
-  constexpr int least_descriptors = 24;
+  constexpr rlim_t min_stack = 1024 * 1024;
+  constexpr int min_descriptors = 24;
   rlimit stack = {};
-  if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < least_stack)
+  if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < min_stack)
     return fmt::format("the stack is limited to {} KiB (ulimit -s; allowed: from {} KiB on)",
-                       stack.rlim_cur / 1024, least_stack / 1024);
+                       stack.rlim_cur / 1024, min_stack / 1024);
   std::vector<int> taken;
-  for (int free = 0; free < least_descriptors; ++free)
+  for (int free = 0; free < min_descriptors; ++free)
     if (const int descriptor = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0); descriptor >= 0)
       taken.push_back(descriptor);
   for (const int descriptor : taken) close(descriptor);
-  if (taken.size() == least_descriptors) return "";
+  if (taken.size() == min_descriptors) return "";
   return fmt::format("only {} files can be opened (ulimit -n; allowed: from {} on)", taken.size(),
-                     least_descriptors);
+                     min_descriptors);
 }
 
 int checked_exit_code(int code, const char* program) {

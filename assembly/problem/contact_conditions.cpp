@@ -117,7 +117,7 @@ ReachableContact with_reachable_contact(MatchedFaces faces, const Scene& scene) 
       free.push_back(row);
       continue;
     }
-    if (values.face) check_face(mesh, row, label, *values.face, most_of_face * diameter);
+    if (values.face) check_face(mesh, row, label, *values.face, max_of_face * diameter);
     for (const GapPiece& piece : pieces) {  // without clearance, which load steps may change
       if (!piece.is_met) continue;
       check_interference(label, edge.at(piece.start), piece.gap_mm[0], diameter);

@@ -15,7 +15,7 @@ namespace airybench {
 namespace {
 
 using Point = Eigen::Vector2d;
-constexpr double least_facing = 0.5;  // of −n·m: faces up to 60° from parallel
+constexpr double min_facing = 0.5;  // of −n·m: faces up to 60° from parallel
 
 // Where a vertex meets the other face.
 struct Hit {
@@ -58,7 +58,7 @@ class Matcher {
     const auto [from, to] = ends(row);
     const Point along = x(to) - x(from), d = x(v) - x(from);
     const double across = cross(along, n);
-    if (edge_normal(row).dot(n) > -least_facing || across == 0) return {};
+    if (edge_normal(row).dot(n) > -min_facing || across == 0) return {};
     return within_reach({row, clamped(cross(d, n) / across), cross(d, along) / across, n});
   }
   // From a vertex of the second face against the normal at the place met on an edge of the first:
@@ -67,7 +67,7 @@ class Matcher {
     const auto [from, to] = ends(row);
     const Point d = x(v) - x(from), along = x(to) - x(from), n = face_[0].normal.at(from),
                 turn = face_[0].normal.at(to) - n;
-    if (edge_normal(row).dot(face_[1].normal.at(v)) > -least_facing) return {};
+    if (edge_normal(row).dot(face_[1].normal.at(v)) > -min_facing) return {};
     const double a = -cross(along, turn), b = cross(d, turn) - cross(along, n), c = cross(d, n);
     const double root = b * b - 4 * a * c;
     if (root < 0) return {};
@@ -346,7 +346,7 @@ std::optional<Wall> curve_of(const Mesh& mesh, int boundary_row, const Scene& sc
 }
 
 MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, const Scene& scene) {
-  constexpr double least_cosine = 0.94;  // 20°
+  constexpr double min_cosine = 0.94;  // 20°
   MatchingFace face;
   std::map<int, std::vector<Point>> at;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
@@ -362,7 +362,7 @@ MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, c
   }
   for (const auto& [v, normals] : at) {
     face.normal[v] = (normals.front() + normals.back()).normalized();
-    if (normals.size() < 2 || normals.front().dot(normals.back()) < least_cosine)
+    if (normals.size() < 2 || normals.front().dot(normals.back()) < min_cosine)
       face.fixed.insert(v);
   }
   return face;

@@ -33,7 +33,7 @@ MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, c
 // Throws TransformError if the curve that a contact edge stands for is farther from it.
 void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
                 double allowed_mm);
-inline constexpr double most_of_face = 0.05;  // of the mesh's size
+inline constexpr double max_of_face = 0.05;  // of the mesh's size
 
 // The group of contact edges that meet nothing, and are free.
 inline constexpr std::string_view out_of_reach = "out of reach";

@@ -139,7 +139,7 @@ class PairedEdges {
     }
     for (const int side : {row, other})
       if (const std::optional<Wall> curve = curve_of(mesh_, side, scene_))
-        check_face(mesh_, side, label(side), *curve, most_of_face * size_mm);
+        check_face(mesh_, side, label(side), *curve, max_of_face * size_mm);
     edges[row] = of_first;
     edges[other] = of_second;
   }

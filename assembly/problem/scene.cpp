@@ -79,9 +79,9 @@ void check_contacts_of_step(const Scene& scene, std::size_t k) {
 }
 
 void check_steps(const Scene& scene) {
-  if (scene.equal_steps < 1 || scene.equal_steps > most_load_steps)
+  if (scene.equal_steps < 1 || scene.equal_steps > max_load_steps)
     fail(scene, "load_steps", scene.equal_steps,
-         "(allowed: from 1 to " + std::to_string(most_load_steps) + ")");
+         "(allowed: from 1 to " + std::to_string(max_load_steps) + ")");
   if (scene.equal_steps > 1 && !scene.later_steps.empty())
     fail(scene, "load_steps", scene.equal_steps, "and a list (allowed: one of them)");
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {

@@ -75,7 +75,7 @@ struct Scene {
   int equal_steps = 1;
   std::vector<LoadStep> later_steps = {};
 };
-inline constexpr int most_load_steps = 1000;
+inline constexpr int max_load_steps = 1000;
 
 // A scene does not fit a mesh. what(): one line with scene, key, value, what is allowed.
 struct SceneError : InputError {

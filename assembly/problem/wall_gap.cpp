@@ -161,9 +161,9 @@ std::array<double, 3> lowered(const std::vector<GapPiece>& pieces, const std::ar
 }  // namespace
 
 std::optional<double> FacingEdge::gap_mm(double s) const {
-  constexpr double least_cosine = 0.05;
+  constexpr double min_cosine = 0.05;
   const Eigen::Vector2d x = at(s), n = direction_at(x);
-  if (!(n.dot(m) > least_cosine)) return {};  // faces away
+  if (!(n.dot(m) > min_cosine)) return {};  // faces away
   std::optional<double> t = distance_along(wall, x, n);
   if (t && face) *t -= distance_to_either_side(*face, x, n).value_or(0);
   return t;

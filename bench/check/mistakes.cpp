@@ -25,7 +25,7 @@ struct Law {
 // Gauss–Seidel by components, since our own contact solvers know the right law only. Empty: no
 // convergence.
 VectorXd solved(const contact::Problem& problem, const Law& law = {}) {
-  constexpr int most_sweeps = 20'000;
+  constexpr int max_sweeps = 20'000;
   constexpr double tolerance = 1e-9;
   const ContactPoints& points = problem.points;
   const VectorXd offset = contact_offset(problem);
@@ -33,7 +33,7 @@ VectorXd solved(const contact::Problem& problem, const Law& law = {}) {
   const auto without_r = [&](int row) {
     return F(row) - (problem.D.row(row).dot(F) - offset(row)) / problem.D(row, row);
   };
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int sweep = 0; sweep < max_sweeps; ++sweep) {
     const VectorXd before = F;
     for (int p = 0; p < points.count; ++p) {
       const int n = points.components * p;

@@ -65,10 +65,10 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   app.add_option("--error", error, "total error, relative: 1%")->required();
   app.add_option("--method", options.run.methods, "to compare, by names or globs")
       ->capture_default_str();
-  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.limits.timeout_s,
+  add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
              "seconds that one solve may take");
   add_number(
-      app, "--budget", Least::above_zero, most_of_a_limit, budget_s,
+      app, "--budget", Least::above_zero, max_limit, budget_s,
       "seconds for measuring methods; leaves out those that do not fit in by earlier records");
   add_memory_limit(app, options.limits);
   app.add_option("--out", options.output.folder, "folder of the output files")
@@ -128,13 +128,13 @@ double unknowns_after(const Record& coarse, const Record& fine, double steps) {
 
 std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine, double error,
                                        const std::vector<Record>& past) {
-  constexpr double most_unknowns = 1e9, widest = 30;  // highest over lowest time that are of use
+  constexpr double max_unknowns = 1e9, widest = 30;  // highest over lowest time that are of use
   if (!coarse.error_total || !fine.error_total || *fine.error_total >= *coarse.error_total)
     return {};
   const double gain = *fine.error_total / *coarse.error_total;
   const double more = std::ceil(std::log(error / *fine.error_total) / std::log(gain));
   const double n_phi = unknowns_after(coarse, fine, 1 + more);
-  if (more < 1 || !(n_phi < most_unknowns)) return {};
+  if (more < 1 || !(n_phi < max_unknowns)) return {};
   Record forecast;
   forecast.conclude({Status::ok, ""});
   const std::string mesh = coarse.mesh.substr(0, coarse.mesh.rfind('+'));

@@ -37,11 +37,11 @@ Options parse_check(int argc, const char* const* argv, std::filesystem::path& de
       "{bench} check");
   app.footer(check_footer);
   app.add_option("DECLARATION", declaration, "of the program: a JSON file")->required();
-  add_number(app, "--target-error", Least::above_zero, most_of_a_limit,
-             options.run.cases.target_error, "largest error of an answer that passes");
-  add_whole(app, "--threads", 1, most_threads, options.run.cases.threads,
+  add_number(app, "--target-error", Least::above_zero, max_limit, options.run.cases.target_error,
+             "largest error of an answer that passes");
+  add_whole(app, "--threads", 1, max_threads, options.run.cases.threads,
             "of BLAS, and {threads} of the program");
-  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.limits.timeout_s,
+  add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
              "seconds that one solve may take");
   add_memory_limit(app, options.limits);
   parse_command_line(app, argc, argv);

@@ -21,7 +21,7 @@ enum class Least { zero, above_zero };
 double read_number(const std::string& option, const std::string& text, Least least, double most);
 std::int64_t read_whole(const std::string& option, const std::string& text, std::int64_t least,
                         std::int64_t most);
-inline constexpr double most_of_a_limit = 1e9;
+inline constexpr double max_limit = 1e9;
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
                         double& number, const std::string& description);

@@ -138,7 +138,7 @@ void refuse_twins(const std::vector<RecordLine>& all, bool runs) {
 
 // Throws FileError if cases of a plan are missing. Records that are older than plans pass.
 void refuse_missing(const std::vector<RecordLine>& all) {
-  constexpr int most_named = 10;
+  constexpr int max_named = 10;
   std::map<std::string, std::pair<std::int64_t, std::set<std::int64_t>>> plans;
   for (const RecordLine& line : all) {
     auto& [planned, there] = plans[context_word(line.record, "plan_sha256")];
@@ -152,11 +152,11 @@ void refuse_missing(const std::vector<RecordLine>& all) {
       if (!there.contains(number)) missing.push_back(std::to_string(number));
     const std::size_t count = missing.size();
     if (count == 0) continue;
-    if (count > most_named) missing.resize(most_named);
+    if (count > max_named) missing.resize(max_named);
     throw FileError(
         fmt::format("{} of {} cases are missing: {}{} (go on by --resume, or take "
                     "--incomplete)",
-                    count, planned, fmt::join(missing, ", "), count > most_named ? ", …" : ""));
+                    count, planned, fmt::join(missing, ", "), count > max_named ? ", …" : ""));
   }
 }
 

@@ -96,9 +96,9 @@ std::vector<int> thread_counts_of(const Context& context) {
   std::vector<int> counts;
   for (const std::string& word : split_list(context_word(context, "threads"))) {
     const std::int64_t count = parse_whole(word).value_or(0);
-    if (count < 1 || count > most_threads)
+    if (count < 1 || count > max_threads)
       throw FileError(fmt::format("context: threads: {} (allowed: whole numbers from 1 to {})",
-                                  shortened(word), most_threads));
+                                  shortened(word), max_threads));
     counts.push_back(static_cast<int>(count));
   }
   return counts;

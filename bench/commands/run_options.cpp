@@ -126,8 +126,7 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
 
 void add_measuring(CLI::App& app, Options& options, Texts& texts) {
   app.option_defaults()->group("How it is measured");
-  add_number(app, "--target-error", Least::above_zero, most_of_a_limit,
-             options.run.cases.target_error,
+  add_number(app, "--target-error", Least::above_zero, max_limit, options.run.cases.target_error,
              "iterative methods are tightened until their own estimate is below this; a case with "
              "larger errors is inaccurate");
   app.add_option("--stop", texts.stop,
@@ -200,7 +199,7 @@ void read_study(const std::string& text, RunSettings& run) {
     refuse("--study", text, "seconds with error, which chooses from points");
   for (const std::string& word : split_list(text.substr(colon + 1)))
     run.budgets_s.push_back(
-        read_number("--study=" + study->name, word, Least::above_zero, most_of_a_limit));
+        read_number("--study=" + study->name, word, Least::above_zero, max_limit));
   std::ranges::sort(run.budgets_s);
 }
 
@@ -211,7 +210,7 @@ void read_repetitions(const std::string& text, Limits& limits) {
   const std::string& range = parts.only_item();
   const std::size_t dots = std::min(range.find(".."), range.size());
   limits.repetitions = static_cast<int>(read_whole(option, range.substr(0, dots), 1, most));
-  limits.long_case_s = parts.number("within", most_of_a_limit).value_or(limits.long_case_s);
+  limits.long_case_s = parts.number("within", max_limit).value_or(limits.long_case_s);
   if (const auto share = parts.setting("precision"))
     limits.precision = share_of(option + ": precision", *share, "as 2%");
   if (dots < range.size()) {
@@ -229,10 +228,9 @@ void read_repetitions(const std::string& text, Limits& limits) {
 void read_timeout(const std::string& text, bool is_given, const std::vector<double>& budgets_s,
                   Limits& limits) {
   const ValueParts parts("--timeout", text, {"tuning", "others"});
-  limits.timeout_s =
-      read_number("--timeout", parts.only_item(), Least::above_zero, most_of_a_limit);
-  limits.tuning_budget_s = parts.number("tuning", most_of_a_limit);
-  limits.others_s = parts.number("others", most_of_a_limit);
+  limits.timeout_s = read_number("--timeout", parts.only_item(), Least::above_zero, max_limit);
+  limits.tuning_budget_s = parts.number("tuning", max_limit);
+  limits.others_s = parts.number("others", max_limit);
   if (budgets_s.empty() || is_given) return;
   if (!limits.tuning_budget_s) limits.tuning_budget_s = limits.timeout_s;
   limits.timeout_s = 2 * budgets_s.back();
@@ -305,12 +303,12 @@ void read_threads(const std::string& text, bool is_given, RunSettings& run) {
       scaling ? split_list(text) : std::vector<std::string>{text};
   for (const std::string& word : words) {
     const std::optional<std::int64_t> count = parse_whole(word);
-    if (!count || *count < 1 || *count > (scaling ? processors : most_threads))
+    if (!count || *count < 1 || *count > (scaling ? processors : max_threads))
       refuse("--threads", text,
              scaling ? fmt::format("whole numbers from 1 to {}, the processors of this machine",
                                    processors)
                      : fmt::format("a whole number from 1 to {}; a list with --study=scaling",
-                                   most_threads));
+                                   max_threads));
     counts.insert(static_cast<int>(*count));
     run.cases.threads = static_cast<int>(*count);
   }
@@ -387,9 +385,9 @@ Options parse_options(int argc, const char* const* argv, Asked asked) {
   if (given("--contact")) options.run.cases.contact = contact_solver_of(texts.contact);
   read_repetitions(texts.repetitions, options.limits);
   if (given("--retry-noisy")) {
-    constexpr double most_noise = 0.05;  // as in machine_warnings()
+    constexpr double max_noise = 0.05;  // as in machine_warnings()
     options.limits.retry_noisy = texts.noise == "true"
-                                     ? most_noise
+                                     ? max_noise
                                      : share_of("--retry-noisy", texts.noise, "as 5%, or no value");
   }
   read_threads(texts.threads, given("--threads"), options.run);

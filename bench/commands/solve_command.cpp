@@ -81,11 +81,11 @@ Options parse_solve(int argc, const char* const* argv, Goal& goal, bool& html) {
   app.add_option("SCENE", scene, "its materials, supports, loads and contact");
   app.add_option("--error", error, "total error, relative: 1%, 1%:force, 1%:pressure")
       ->capture_default_str();
-  add_whole(app, "--steps", 1, most_load_steps, options.run.equal_steps,
+  add_whole(app, "--steps", 1, max_load_steps, options.run.equal_steps,
             "load in so many equal steps");
   app.add_option("--degree", degree, "of the stresses: 2 to 4, auto")->capture_default_str();
   add_model_settings(app, options.run.model_settings);
-  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.limits.timeout_s,
+  add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
              "seconds that one solve may take");
   add_memory_limit(app, options.limits);
   app.add_flag("--html", html, "also a page: OUT/part.html");
@@ -172,7 +172,7 @@ std::optional<double> half_width(const Json& of, const char* interval, double va
 
 // The worst of all faces together and of each that carries a share of the load.
 Reached reached(const Solved& solved, Quantity of) {
-  constexpr double least_share = 0.01;
+  constexpr double min_share = 0.01;
   const Record& r = solved.record;
   if (of == Quantity::energy) return {r.error_total};
   const bool is_force = of == Quantity::force;
@@ -186,7 +186,7 @@ Reached reached(const Solved& solved, Quantity of) {
   for (const Json& face : solved.part["faces"]) {
     const double force_N = face["normal_N"];
     const Json& pressure = face["pressure_MPa"];
-    if (std::abs(force_N) <= least_share * load_N) continue;
+    if (std::abs(force_N) <= min_share * load_N) continue;
     const Reached own{is_force ? half_width(face, "normal_in_N", force_N)
                                : half_width(pressure, "in", pressure["value"].get<double>()),
                       face["name"]};
@@ -223,10 +223,10 @@ std::optional<Solved> solved_to(const PosedScene& start, const Options& options)
 
 // The energy's error that the quantity's needs is found as the loop goes.
 std::optional<Solved> solved(const PosedScene& start, Options options, const Goal& goal) {
-  constexpr int most_rounds = 5;
+  constexpr int max_rounds = 5;
   constexpr double margin = 0.8, smallest_step = 0.1;
   std::optional<Solved> answer;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     answer = solved_to(start, options);
     if (!answer || !answer->short_of.empty()) return answer;
     const std::optional<double> width = reached(*answer, goal.of).error;

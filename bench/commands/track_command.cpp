@@ -65,7 +65,7 @@ TrackOptions parse_track(int argc, const char* const* argv) {
   app.add_flag("--judge-only", options.judge_only, "judge the newest night again")->excludes(from);
   add_number(app, "--minimum-effect", Least::zero, 1000, options.minimum_effect_percent,
              "per cent: smaller changes of a time are no change");
-  add_whole(app, "--nights-after", 2, 30, options.rules.least_after,
+  add_whole(app, "--nights-after", 2, 30, options.rules.min_after,
             "nights after a change of a time that confirm it");
   const char* const* const end = argv + argc;
   const char* const* const separator = std::find_if(
@@ -107,7 +107,7 @@ int track_and_print(std::vector<TrackedRun>& history, const TrackOptions& option
   fmt::print("{}: {} cases, night {} of this machine ({})\n", run.file.string(), run.cases.size(),
              of_machine, run.machine());
   if (!run.times_judged)
-    fmt::print("times are judged from night {} on\n", options.rules.least_runs());
+    fmt::print("times are judged from night {} on\n", options.rules.min_runs());
   for (const Kind kind : {Kind::worse, Kind::better, Kind::changed})
     for (const Finding& finding : run.findings)
       if (finding.kind == kind) fmt::print("{:<7}  {}\n", name_of(kind), finding.sentence);

@@ -28,10 +28,10 @@ bool is_file(const std::filesystem::path& file) {
 
 // Messages omit the folder's name, which means nothing to a user.
 std::filesystem::path file_in(const std::filesystem::path& folder, const std::string& name,
-                              std::uintmax_t most_bytes) {
+                              std::uintmax_t max_bytes) {
   if (!is_file(folder / name)) throw FileError(name + ": there is none in {output}");
-  if (const auto bytes = file_size(folder / name); bytes > most_bytes)
-    throw FileError(fmt::format("{}: {} bytes (allowed: up to {})", name, bytes, most_bytes));
+  if (const auto bytes = file_size(folder / name); bytes > max_bytes)
+    throw FileError(fmt::format("{}: {} bytes (allowed: up to {})", name, bytes, max_bytes));
   return folder / name;
 }
 
@@ -53,7 +53,7 @@ JsonKey amount_key(const std::string& name, Number& amount, const char* allowed)
 template <typename Int>
 JsonKey count_key(const char* name, std::optional<Int>& count) {
   constexpr std::int64_t most = std::numeric_limits<Int>::max();
-  return whole(name, count, 0, static_cast<Int>(std::min(most, field_kind::most_count)));
+  return whole(name, count, 0, static_cast<Int>(std::min(most, field_kind::max_count)));
 }
 
 // "\x93NUMPY", version 1 0, two bytes of length, the header as a Python dictionary, the numbers.
@@ -95,9 +95,9 @@ Answer read_answer(const std::filesystem::path& folder) {
   constexpr std::array<Status, 5> statuses = {Status::ok, Status::inaccurate, Status::not_converged,
                                               Status::breakdown, Status::skipped};
   constexpr const char* seconds = "seconds, at least 0";
-  constexpr std::size_t most_bytes = 1 << 20;
+  constexpr std::size_t max_bytes = 1 << 20;
   const Json json =
-      json_of_file("answer.json", file_text(file_in(folder, "answer.json", most_bytes)));
+      json_of_file("answer.json", file_text(file_in(folder, "answer.json", max_bytes)));
   Answer answer;
   const auto read_status = [&](const JsonValue& value) {
     answer.status = value.one_of(statuses, [](Status status) { return name_of(status); });
@@ -142,10 +142,9 @@ Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::strin
   if (const std::string binary = std::filesystem::path(name).replace_extension(".npy");
       is_file(folder / binary))
     return read_npy(folder, binary, rows, columns);
-  constexpr std::uintmax_t most_bytes_per_number = 100, most_bytes_of_comments = 1 << 20;
+  constexpr std::uintmax_t max_bytes_per_number = 100, max_bytes_of_comments = 1 << 20;
   const auto numbers = static_cast<std::uintmax_t>(rows * columns);
-  std::ifstream file(
-      file_in(folder, name, most_bytes_of_comments + most_bytes_per_number * numbers));
+  std::ifstream file(file_in(folder, name, max_bytes_of_comments + max_bytes_per_number * numbers));
   std::string line;
   int number = 0;
   const auto next_line = [&] {

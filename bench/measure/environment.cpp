@@ -147,7 +147,7 @@ Context context_of_run(const Options& options) {
 
 std::vector<std::string> machine_warnings(const Context& environment, int repetitions,
                                           const std::vector<double>& noise_kernel_s) {
-  constexpr double most_load_per_cpu = 0.2, most_noise = 0.05;
+  constexpr double max_load_per_cpu = 0.2, max_noise = 0.05;
   const auto known = [&](const char* key) {
     const std::string word = context_word(environment, key);
     return word == "unknown" ? "" : word;
@@ -161,18 +161,18 @@ std::vector<std::string> machine_warnings(const Context& environment, int repeti
   if (!governor.empty() && governor != "performance")
     lines.push_back(fmt::format(
         "the CPU's frequency follows its load (governor {}, steady with performance)", governor));
-  if (const double most = most_load_per_cpu * static_cast<double>(cpus); cpus > 0 && load > most)
+  if (const double most = max_load_per_cpu * static_cast<double>(cpus); cpus > 0 && load > most)
     lines.push_back(
         fmt::format("other work on the machine: load {:.2f} on {} CPUs (quiet: at most {:.1f})",
                     load, cpus, most));
   if (cpus > 0 && threads > cpus)
     lines.push_back(fmt::format("--threads={}: more than the {} CPUs: they wait for one another",
                                 threads, cpus));
-  if (noise > most_noise)
+  if (noise > max_noise)
     lines.push_back(
         fmt::format("times scatter by {:.1f} % in a loop that is always the same (quiet: at most "
                     "{:.0f} %)",
-                    100 * noise, 100 * most_noise));
+                    100 * noise, 100 * max_noise));
   if (repetitions < fewest_to_tell_apart)
     lines.push_back(fmt::format(
         "--repetitions={}: too few for a sound interval, and for two methods to differ at "

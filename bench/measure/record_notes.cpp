@@ -147,17 +147,17 @@ double gap_mm_at(const Problem& problem, int row, int node) {
 
 std::string words_of_least_gap(const Problem& problem) {
   if (!problem.later_steps.empty()) return "";  // of each step another
-  double least_mm = std::numeric_limits<double>::infinity();
+  double min_mm = std::numeric_limits<double>::infinity();
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
     const int other = problem.opposite_of(row);
     for (int node = 0; node < 3; ++node) {
       const double beyond = other == Problem::no_row ? 0 : gap_mm_at(problem, other, 2 - node);
-      least_mm = std::min(least_mm, gap_mm_at(problem, row, node) + beyond);
+      min_mm = std::min(min_mm, gap_mm_at(problem, row, node) + beyond);
     }
   }
-  if (std::isinf(least_mm)) return "";
-  return fmt::format("; the least gap, before anything deforms, is {:.3g} mm", least_mm);
+  if (std::isinf(min_mm)) return "";
+  return fmt::format("; the least gap, before anything deforms, is {:.3g} mm", min_mm);
 }
 
 std::vector<std::string> remarks_on_what_is_idle(const Problem& problem, const Verification& v) {

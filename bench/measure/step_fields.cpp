@@ -149,8 +149,8 @@ std::string or_empty(const std::optional<Value>& value) {
 }  // namespace
 
 bool keeps_body(int step, int count) {
-  if (count <= most_step_bodies) return true;
-  return (step + 1) * most_step_bodies / count != step * most_step_bodies / count;
+  if (count <= max_step_bodies) return true;
+  return (step + 1) * max_step_bodies / count != step * max_step_bodies / count;
 }
 
 void remove_step_fields(const fs::path& folder, const std::string& name) {

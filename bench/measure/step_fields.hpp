@@ -1,7 +1,7 @@
 // Writes the fields of a path of load steps, step by step.
 //
 //   NAME.steps/0001.*  step 1: the files of write_fields(), without error and mean. Of a path of
-//                      more than most_step_bodies steps so many, evenly spread, have all files; the
+//                      more than max_step_bodies steps so many, evenly spread, have all files; the
 //                      others have those of the contact points
 //   NAME.pvd, NAME.contact.pvd  ParaView's series of their .vtu; the time is the number of the step
 //   NAME.steps.csv     step, normal_resultant_N, tangential_resultant_N, dissipation_Nmm, n_open,
@@ -25,9 +25,9 @@
 
 namespace airybench {
 
-inline constexpr int most_step_bodies = 100;
+inline constexpr int max_step_bodies = 100;
 
-// step: from 0. True for all steps of a path of at most most_step_bodies, and for every last one.
+// step: from 0. True for all steps of a path of at most max_step_bodies, and for every last one.
 bool keeps_body(int step, int count);
 
 // Removes what an earlier path left under this name; files of other names stay.

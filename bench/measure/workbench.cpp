@@ -153,7 +153,7 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
 
 Workbench::Run Workbench::tighten(const AssembledBlocks& assembled, Choice& choice,
                                   Record& record) {
-  constexpr int most_attempts = 6;
+  constexpr int max_attempts = 6;
   std::optional<Run> finished;  // the last answer, not accurate enough
   double finished_with = 0;
   const CaseSettings& asked = choice.settings;
@@ -171,7 +171,7 @@ Workbench::Run Workbench::tighten(const AssembledBlocks& assembled, Choice& choi
     const double estimate = solution.error_estimate.value_or(0);
     double tolerance = *asked.tolerance;
     if (asked.stop == Stop::paper || !has_answer(solution.status) ||
-        solution.status == Status::ok || attempt == most_attempts || tolerance <= tightest)
+        solution.status == Status::ok || attempt == max_attempts || tolerance <= tightest)
       return run;
     const double searched_s = record.tuning_s.value_or(0) + run.time_s;
     if (limits_.tuning_budget_s && searched_s >= *limits_.tuning_budget_s) {
@@ -198,12 +198,12 @@ RunControl Workbench::control_of(const CaseSettings& settings, Activity what) co
   control.stop = settings.stop;
   control.target_error = settings.target_error;
   control.tolerance = settings.tolerance.value_or(0);
-  control.most_iterations = settings.max_iterations;
+  control.max_iterations = settings.max_iterations;
   ContactOptions& contact = control.contact;
   contact.solver = settings.contact.value_or(contact.solver);
   contact.tolerance = settings.contact_tolerance.value_or(contact.tolerance);
   contact.acceptable = std::max(contact.tolerance, settings.target_error / 1000);
-  contact.most_iterations = settings.max_contact_iterations.value_or(contact.most_iterations);
+  contact.max_iterations = settings.max_contact_iterations.value_or(contact.max_iterations);
   return control;
 }
 

@@ -10,10 +10,10 @@
 namespace airybench {
 
 std::optional<AdaptGoal> adapt_goal_of(const std::string& text) {
-  constexpr std::int64_t fewest_unknowns = 100, most_unknowns = 5'000'000;  // --adapt=1: 1%?
+  constexpr std::int64_t fewest_unknowns = 100, max_unknowns = 5'000'000;  // --adapt=1: 1%?
   if (const std::optional<double> error = parse_percent(text)) return AdaptGoal{error, {}};
   const std::optional<std::int64_t> unknowns = parse_whole(text);
-  if (!unknowns || *unknowns < fewest_unknowns || *unknowns > most_unknowns) return {};
+  if (!unknowns || *unknowns < fewest_unknowns || *unknowns > max_unknowns) return {};
   return AdaptGoal{{}, static_cast<int>(*unknowns)};
 }
 
@@ -26,8 +26,8 @@ std::string text_of(const std::vector<AdaptGoal>& goals) {
 }
 
 double phase_limit_s(const Limits& limits) {
-  constexpr double least_s = 900;
-  return limits.others_s.value_or(std::max(limits.timeout_s, least_s));
+  constexpr double min_s = 900;
+  return limits.others_s.value_or(std::max(limits.timeout_s, min_s));
 }
 
 std::string name_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }

@@ -13,7 +13,7 @@
 
 namespace airybench {
 
-inline constexpr int most_threads = 1024;
+inline constexpr int max_threads = 1024;
 
 // When to stop adapting a mesh; exactly one member is set.
 struct AdaptGoal {

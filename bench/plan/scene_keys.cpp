@@ -189,7 +189,7 @@ static KeyTable table(Slivers& slivers) {
 
 static KeyTable table(MeshTransform& mesh) {
   return {
-      {whole("refine", mesh.refine, 0, most_refinements), key("grade", mesh.grade),
+      {whole("refine", mesh.refine, 0, max_refinements), key("grade", mesh.grade),
        key("slivers", mesh.slivers), positive("scale", mesh.scale), key("stretch", mesh.stretch),
        key("move_mm", mesh.move_mm), whole("keep_contact_edges", mesh.keep_contact_edges, 0, most),
        whole("keep_displacement_edges", mesh.keep_displacement_edges, 1, most),
@@ -243,7 +243,7 @@ static JsonKey pairs(const char* name, std::vector<ContactPair>& contacts) {
 
 static std::vector<JsonKey> layer_keys(Scene& scene) {
   Layers& layers = scene.layers;
-  return {key("normal", layers.normal), whole("count", layers.count, 1, most_layers),
+  return {key("normal", layers.normal), whole("count", layers.count, 1, max_layers),
           list("interfaces_mm", layers.interfaces_mm, 0., "a list of numbers, ascending"),
           list("materials", scene.layer_materials, scene.material, "a list of materials")};
 }
@@ -271,13 +271,13 @@ static KeyTable table(LoadStep& step) {
 static JsonKey load_steps_key(Scene& scene) {
   const auto take = [&scene](const JsonValue& value) {
     const Json& json = value.json;
-    if (json.is_number_integer() && json >= 1 && json <= most_load_steps) {
+    if (json.is_number_integer() && json >= 1 && json <= max_load_steps) {
       scene.equal_steps = json.get<int>();
       return;
     }
-    if (!json.is_array() || json.empty() || json.size() >= most_load_steps)
+    if (!json.is_array() || json.empty() || json.size() >= max_load_steps)
       value.fail(fmt::format("a whole number from 1 to {}, or a list of 1 to {} steps",
-                             most_load_steps, most_load_steps - 1));
+                             max_load_steps, max_load_steps - 1));
     scene.later_steps.resize(json.size());
     for (std::size_t k = 0; k < json.size(); ++k)
       read(value.at(std::to_string(k + 1), json[k]), scene.later_steps[k]);

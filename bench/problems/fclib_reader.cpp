@@ -91,9 +91,9 @@ class FclibFile {
     if (opened < 0) return {};
     const Handle set(opened, H5Dclose), type(H5Dget_type(set), H5Tclose);
     const Handle space(H5Dget_space(set), H5Sclose);
-    constexpr std::size_t most_bytes = 1000;
+    constexpr std::size_t max_bytes = 1000;
     const std::size_t size = H5Tget_size(type);
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size > most_bytes ||
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size > max_bytes ||
         H5Sget_simple_extent_npoints(space) != 1 || !why_not_here(set, size).empty())
       return {};
     std::string value(size, '\0');
@@ -114,8 +114,8 @@ class FclibFile {
     if (H5Pget_layout(made) == H5D_VIRTUAL || H5Pget_external_count(made) > 0)
       return "values in other files";
     // deflate makes 1032 bytes of one at most; what is not stored at all reads as a fill value
-    constexpr std::size_t most_unpacked = 1100;
-    const std::size_t factor = H5Pget_nfilters(made) > 0 ? most_unpacked : 1;
+    constexpr std::size_t max_unpacked = 1100;
+    const std::size_t factor = H5Pget_nfilters(made) > 0 ? max_unpacked : 1;
     return H5Dget_storage_size(set) < bytes / factor ? "values that were never written" : "";
   }
   // read_values: of the dataset; it allocates what it needs.
@@ -129,8 +129,8 @@ class FclibFile {
     const Handle set(opened, H5Dclose);
     const Handle space(H5Dget_space(set), H5Sclose), stored(H5Dget_type(set), H5Tclose);
     const hssize_t there = H5Sget_simple_extent_npoints(space);
-    constexpr std::size_t most_bytes = 16;  // per number; libhdf5 accepts any
-    if (H5Tget_class(stored) != kind || H5Tget_size(stored) > most_bytes)
+    constexpr std::size_t max_bytes = 16;  // per number; libhdf5 accepts any
+    if (H5Tget_class(stored) != kind || H5Tget_size(stored) > max_bytes)
       fail(name, "values of another kind", allowed);
     if (there != count) fail(name, fmt::format("{} values", there), allowed);
     const std::size_t bytes = static_cast<std::size_t>(count) * H5Tget_size(stored);
@@ -195,7 +195,7 @@ SparseRows read_matrix(const FclibFile& file, const std::string& place, int rows
 
 // Rows of W, columns of H.
 int read_size(const FclibFile& file, const std::string& name, int dimension) {
-  const int size = file.whole(name, dimension, most_contact_rows);
+  const int size = file.whole(name, dimension, max_contact_rows);
   check_rows(size, dimension, name, file.refuse());
   return size;
 }
@@ -218,7 +218,7 @@ contact::Problem read_local(const FclibFile& file, const std::string& place, int
 
 contact::Problem read_global(const FclibFile& file, const std::string& place, int dimension) {
   GlobalArrays arrays;
-  const int n = file.whole(place + "/M/m", 1, most_unknowns);
+  const int n = file.whole(place + "/M/m", 1, max_unknowns);
   file.whole(place + "/M/n", n, n);
   arrays.M = read_matrix(file, place + "/M/", n, n);
   file.whole(place + "/H/m", n, n);
@@ -240,7 +240,7 @@ std::string name_of(const FclibFile& file, const std::filesystem::path& path) {
 
 // libhdf5 crashes on some damaged files: a child process reads them first.
 void try_to_read(const std::filesystem::path& path) {
-  constexpr double most_s = 300;
+  constexpr double max_s = 300;
   const auto begun = std::chrono::steady_clock::now();
   ChildProcess child([&](Channel& channel) {
     channel.receive();
@@ -252,12 +252,12 @@ void try_to_read(const std::filesystem::path& path) {
     }
     channel.send(why_not);
   });
-  const auto answer = child.ask("read", [&](double) { return seconds_since(begun) > most_s; });
+  const auto answer = child.ask("read", [&](double) { return seconds_since(begun) > max_s; });
   if (answer && answer->empty()) return;
   if (answer) throw FileError(*answer);
   if (child.end().exit_code == no_memory_exit_code) throw std::bad_alloc();
   throw FileError(fmt::format("{}: damaged: libhdf5, which read it, {} (allowed: an HDF5 file)",
-                              path.string(), how_it_ended(child.end(), most_s)));
+                              path.string(), how_it_ended(child.end(), max_s)));
 }
 
 }  // namespace

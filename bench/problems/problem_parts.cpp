@@ -12,7 +12,7 @@
 namespace airybench {
 namespace {
 
-constexpr int most_dense_rows = 20'000;  // 3.2 GB
+constexpr int max_dense_rows = 20'000;  // 3.2 GB
 // Of W and q: forces q / W, up to 1e100, have squares, energies and friction that a double can be.
 constexpr double min_entry = 1e-50, max_entry = 1e50;
 
@@ -39,14 +39,14 @@ contact::Problem in_range(contact::Problem problem, const std::string& place,
 // Whether it is, exactly.
 template <typename Matrix>
 bool check_symmetric(const Matrix& matrix, const std::string& place, const Refuse& refuse) {
-  constexpr double most_off = 0.01;  // few digits, or other programs' inertia in another frame
+  constexpr double max_off = 0.01;  // few digits, or other programs' inertia in another frame
   const Eigen::VectorXd diagonal = matrix.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal(i) > 0))
       refuse(place, fmt::format("diagonal entry {} is {}", i, diagonal(i)), "> 0");
   const Matrix difference = matrix - Matrix(matrix.transpose());
   const double off = difference.nonZeros() == 0 ? 0 : difference.coeffs().cwiseAbs().maxCoeff();
-  if (!(off <= most_off * diagonal.maxCoeff()))
+  if (!(off <= max_off * diagonal.maxCoeff()))
     refuse(place, fmt::format("differs from its transpose by {:.3g}", off),
            "1 % of the largest diagonal entry");
   return off == 0;
@@ -82,9 +82,9 @@ contact::Problem local_problem(SparseRows W, Eigen::VectorXd q, ContactPoints po
     problem.how = "sparse";
     return in_range(std::move(problem), place, refuse);
   }
-  if (W.rows() > most_dense_rows)
+  if (W.rows() > max_dense_rows)
     refuse(place, fmt::format("{} rows with {} entries", W.rows(), W.nonZeros()),
-           fmt::format("up to {} rows, more of a sparse matrix", most_dense_rows));
+           fmt::format("up to {} rows, more of a sparse matrix", max_dense_rows));
   problem.D = W;
   problem.how = "dense";
   return in_range(std::move(problem), place, refuse);

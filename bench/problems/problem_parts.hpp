@@ -12,8 +12,8 @@ namespace airybench {
 using Refuse = std::function<void(const std::string& place, const std::string& what,
                                   const std::string& allowed)>;
 
-inline constexpr int most_contact_rows = 1'000'000;  // of W, columns of H
-inline constexpr int most_unknowns = 1'000'000;      // rows of M
+inline constexpr int max_contact_rows = 1'000'000;  // of W, columns of H
+inline constexpr int max_unknowns = 1'000'000;      // rows of M
 
 // d rows of W, columns of H, per contact.
 void check_rows(int rows, int dimension, const std::string& place, const Refuse& refuse);

@@ -209,8 +209,8 @@ void read_csparse(Words& words, const Shape& shape, Entries& entries) {
 SparseRows read_matrix(Words& words) {
   const int kind = words.whole(0, 2);
   Shape shape{};
-  shape.rows = words.whole(1, most_unknowns);
-  shape.columns = words.whole(1, most_unknowns);
+  shape.rows = words.whole(1, max_unknowns);
+  shape.columns = words.whole(1, max_unknowns);
   Entries entries;
   (kind == 0 ? read_dense : kind == 1 ? read_blocks : read_csparse)(words, shape, entries);
   SparseRows matrix(shape.rows, shape.columns);
@@ -230,7 +230,7 @@ void check_shape(const Words& words, const char* place, const SparseRows& matrix
 contact::Problem read_siconos_text(const std::filesystem::path& file) {
   Words words(file);
   const int dimension = words.whole(2, 3);
-  const int contacts = words.whole(1, most_contact_rows / dimension), m = dimension * contacts;
+  const int contacts = words.whole(1, max_contact_rows / dimension), m = dimension * contacts;
   SparseRows first = read_matrix(words);
   const auto points = [&] {
     ContactPoints result = points_of(dimension, words.numbers(contacts), "mu", words.refuse());

@@ -15,7 +15,7 @@ const std::set<std::string> of_the_run = {
     "long_case_s", "max_repetitions", "marking",       "memory_limit_bytes", "plan_sha256",
     "precision",   "repetitions",     "retry_noisy",   "timeout_s",          "tuning_budget_s"};
 
-constexpr int most_named = 6;
+constexpr int max_named = 6;
 
 std::string value_of(const Context& context, const std::string& key) {
   return context.contains(key) ? context.at(key) : "(not said)";
@@ -40,10 +40,10 @@ std::string differences(const Context& a, const Context& b, Sameness sameness) {
     if (sameness == Sameness::different_runs && of_the_run.count(key) > 0) continue;
     if (key == "program_sha256" && sameness != Sameness::same_program && clean) continue;
     const std::string first = value_of(a, key), second = value_of(b, key);
-    if (first != second && ++count <= most_named)
+    if (first != second && ++count <= max_named)
       text += fmt::format("{}{}: {} and {}", text.empty() ? "" : "; ", key, first, second);
   }
-  return count > most_named ? fmt::format("{}; and {} more", text, count - most_named) : text;
+  return count > max_named ? fmt::format("{}; and {} more", text, count - max_named) : text;
 }
 
 }  // namespace airybench

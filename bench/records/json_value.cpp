@@ -66,7 +66,7 @@ Json changes(const std::vector<JsonKey>& keys, const std::vector<JsonKey>& prese
 }
 
 Json json_of_file(const std::string& name, const std::string& text) {
-  constexpr std::size_t most_keys = 1000;
+  constexpr std::size_t max_keys = 1000;
   std::vector<std::set<std::string>> keys;
   const auto refuse = [&](const std::string& what) { throw FileError(name + ": " + what); };
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
@@ -74,8 +74,8 @@ Json json_of_file(const std::string& name, const std::string& text) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event != Json::parse_event_t::key) return true;
-    if (keys.back().size() == most_keys)
-      refuse(fmt::format("more than {} keys in one object", most_keys));
+    if (keys.back().size() == max_keys)
+      refuse(fmt::format("more than {} keys in one object", max_keys));
     if (const auto key = value.get<std::string>(); !keys.back().insert(key).second)
       refuse(shortened(key) + ": given twice");
     return true;

@@ -73,7 +73,7 @@ bool is_amount(const Json& value) { return value.is_number() && value.get<double
 bool is_positive(const Json& value) { return value.is_number() && value.get<double>() > 0; }
 bool is_fraction(const Json& value) { return is_amount(value) && value.get<double>() <= 1; }
 bool is_count(const Json& value) {
-  return is_amount(value) && value.get<double>() <= field_kind::most_count &&
+  return is_amount(value) && value.get<double>() <= field_kind::max_count &&
          value.get<double>() == std::floor(value.get<double>());
 }
 bool is_size(const Json& value) { return is_count(value) && value.get<double>() >= 1; }

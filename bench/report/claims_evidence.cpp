@@ -25,10 +25,10 @@ std::string scene_of(const std::vector<Record>& records, const std::string& sour
 }
 
 std::string some_of(std::vector<std::string> names) {
-  constexpr std::size_t most_named = 4;
-  if (names.size() <= most_named) return joined(names);
-  const std::size_t rest = names.size() - most_named + 1;
-  names.resize(most_named - 1);
+  constexpr std::size_t max_named = 4;
+  if (names.size() <= max_named) return joined(names);
+  const std::size_t rest = names.size() - max_named + 1;
+  names.resize(max_named - 1);
   return fmt::format("{} and {} more", joined(names), rest);
 }
 

@@ -74,7 +74,7 @@ TimeVerdict verdict_of(const ComparedCase& one, const Comparison& all) {
   const std::size_t m = one.medians_a.size(), n = one.medians_b.size();
   if (m == 1 && n == 1) return TimeVerdict::one_run_each;
   if (one.p > all.rules.level)
-    return least_mann_whitney_p(m, n) * static_cast<double>(all.timed) > all.rules.level
+    return min_mann_whitney_p(m, n) * static_cast<double>(all.timed) > all.rules.level
                ? TimeVerdict::too_few_runs
                : TimeVerdict::not_separated;
   const double drift = all.drift.value_or(1), effect = all.rules.minimum_effect;

@@ -9,7 +9,7 @@
 namespace airybench {
 namespace {
 
-constexpr std::size_t most_for_exact = 25;  // C(50, 25) < 2^53: the counts are exact in doubles
+constexpr std::size_t max_for_exact = 25;  // C(50, 25) < 2^53: the counts are exact in doubles
 
 // N(u; m, n) for u = 0 .. m n.
 std::vector<double> orderings(std::size_t m, std::size_t n) {
@@ -78,8 +78,8 @@ struct Moments {
       yy += w * dy * dy;
     }
   }
-  double variance_about(double b, std::size_t parameters, double least_scatter) const {
-    const double least = least_scatter * least_scatter;
+  double variance_about(double b, std::size_t parameters, double min_scatter) const {
+    const double least = min_scatter * min_scatter;
     if (count <= parameters) return least;
     const double squares = yy - 2 * b * xy + b * b * xx;  // Σ w r²
     return std::max(least, squares / static_cast<double>(count - parameters));
@@ -105,14 +105,14 @@ MannWhitney mann_whitney(const std::vector<double>& a, const std::vector<double>
   std::vector<double> all = a;
   all.insert(all.end(), b.begin(), b.end());
   const double ties = tie_sum(std::move(all));
-  result.exact = ties == 0 && std::max(a.size(), b.size()) <= most_for_exact;
+  result.exact = ties == 0 && std::max(a.size(), b.size()) <= max_for_exact;
   result.p = result.exact ? exact_p(result.u, a.size(), b.size())
                           : normal_p(result.u, static_cast<double>(a.size()),
                                      static_cast<double>(b.size()), ties);
   return result;
 }
 
-double least_mann_whitney_p(std::size_t m, std::size_t n) {
+double min_mann_whitney_p(std::size_t m, std::size_t n) {
   // 1 / C(m + n, m) = (m + n + 1) B(m + 1, n + 1), which does not overflow.
   const auto a = static_cast<double>(m) + 1, b = static_cast<double>(n) + 1;
   return std::min(1.0, 2 * (a + b - 1) * boost::math::beta(a, b));
@@ -120,7 +120,7 @@ double least_mann_whitney_p(std::size_t m, std::size_t n) {
 
 std::size_t values_needed_for(double level) {
   std::size_t values = 1;
-  while (least_mann_whitney_p(values, values) > level) ++values;
+  while (min_mann_whitney_p(values, values) > level) ++values;
   return values;
 }
 
@@ -144,18 +144,18 @@ Estimate estimate_of(double value, double scatter) {
 }
 
 std::optional<Estimate> extrapolate(const std::vector<SizedValue>& points, int n,
-                                    double least_scatter) {
+                                    double min_scatter) {
   if (is_of_one_size(points)) return {};
   const Moments m(points, n);
   const double exponent = m.xy / m.xx;
-  const double variance = m.variance_about(exponent, 2, least_scatter);
+  const double variance = m.variance_about(exponent, 2, min_scatter);
   return m.estimate_at(n, exponent, variance, variance / m.xx);
 }
 
 Estimate extrapolate(const std::vector<SizedValue>& points, int n, double exponent,
-                     double least_scatter) {
+                     double min_scatter) {
   const Moments m(points, n);
-  return m.estimate_at(n, exponent, m.variance_about(exponent, 1, least_scatter),
+  return m.estimate_at(n, exponent, m.variance_about(exponent, 1, min_scatter),
                        exponent_scatter * exponent_scatter);
 }
 

@@ -28,7 +28,7 @@ struct MannWhitney {
 MannWhitney mann_whitney(const std::vector<double>& a, const std::vector<double>& b);
 
 // 2 / C(m + n, m), the least possible p.
-double least_mann_whitney_p(std::size_t m, std::size_t n);
+double min_mann_whitney_p(std::size_t m, std::size_t n);
 // Values per side from which p <= level is possible; 0 < level <= 1.
 std::size_t values_needed_for(double level);
 
@@ -64,11 +64,11 @@ Estimate estimate_of(double value, double scatter);
 
 // Empty if the points have fewer than two different sizes.
 std::optional<Estimate> extrapolate(const std::vector<SizedValue>& points, int n,
-                                    double least_scatter);
+                                    double min_scatter);
 
 // With a given exponent that may be off by exponent_scatter; for points of one size.
 Estimate extrapolate(const std::vector<SizedValue>& points, int n, double exponent,
-                     double least_scatter);
+                     double min_scatter);
 inline constexpr double exponent_scatter = 0.3;
 
 // The common exponent near n of groups that differ by a factor. Empty: no group has two sizes.

@@ -171,7 +171,7 @@ Finding finding_of(const TimeChange& change, const TimeTable& table,
     finding.before = median_time(series, table.starts[*change.series], change.first);
     finding.after = median_time(series, change.first, series.size());
   }
-  const bool by_kernel = !change.series || table.log_times.size() < least_cases;
+  const bool by_kernel = !change.series || table.log_times.size() < min_cases;
   finding.sentence = fmt::format(
       "{}: {}{} since {}: {:.3g} times the time before (95 %: {:.3g} to {:.3g}), against the {}.",
       finding.case_name, finding.quantity == "time_s" ? "" : "the program's own solve is ",
@@ -192,7 +192,7 @@ void track_newest(std::vector<TrackedRun>& history, const TimeRules& rules) {
   std::vector<TrackedRun> runs;
   std::ranges::copy_if(history, std::back_inserter(runs),
                        [&](const TrackedRun& run) { return run.machine() == newest.machine(); });
-  newest.times_judged = runs.size() >= rules.least_runs();
+  newest.times_judged = runs.size() >= rules.min_runs();
   newest.findings.clear();
   if (runs.size() > 1) compare_contexts(runs[runs.size() - 2], newest, newest.findings);
   for (const Record& now : newest.cases) compare_case(runs, now, newest.findings);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double outlier_share = 0.1;    // ε
 constexpr double outlier_scale = 0.25;   // ω
-constexpr double least_scale = 0.005;    // from clocks and caches
+constexpr double min_scale = 0.005;      // from clocks and caches
 constexpr double common_weight = 10;     // of the common scale, in runs
 constexpr double agreeing_share = 0.75;  // of the runs after a change
 constexpr double standard_errors = 1.1;  // of margin above the least effect
@@ -46,14 +46,14 @@ Level level_of(const std::vector<double>& values, double scale, bool scale_is_kn
     level.runs = runs;
     if (runs < 1.5) break;  // all are outliers to each other
     level.value += sum / runs;
-    if (!scale_is_known) level.scale = std::max(least_scale, std::sqrt(squares / (runs - 1)));
+    if (!scale_is_known) level.scale = std::max(min_scale, std::sqrt(squares / (runs - 1)));
   }
   return level;
 }
 
 Level level_before(const std::vector<double>& before, double common_scale) {
   // The robust start keeps outliers out of the scale.
-  const double start = std::max({least_scale, common_scale / 2, robust_standard_deviation(before)});
+  const double start = std::max({min_scale, common_scale / 2, robust_standard_deviation(before)});
   const double own = level_of(before, start, false).scale;
   const auto weight = static_cast<double>(before.size());
   const double variance =
@@ -67,7 +67,7 @@ double log_likelihood(const std::vector<double>& values, double level, double sc
   return sum;
 }
 
-double least_lambda(double false_alarm_level) {
+double min_lambda(double false_alarm_level) {
   const double z = boost::math::quantile(complement(boost::math::normal(), false_alarm_level));
   return z * z / 2;
 }
@@ -100,42 +100,41 @@ std::vector<double> common_factor(const std::vector<std::vector<double>>& rows, 
 
 double scale_of(const std::vector<double>& series) {
   const std::vector<double> values = measured(series);
-  return values.size() < 2 ? std::nan("")
-                           : std::max(least_scale, robust_standard_deviation(values));
+  return values.size() < 2 ? std::nan("") : std::max(min_scale, robust_standard_deviation(values));
 }
 
 std::optional<TimeChange> find_change(const std::vector<double>& series, double common_scale,
                                       const TimeRules& rules, double level) {
   const std::vector<double> values = measured(series);
-  const double least_shift = std::log1p(rules.minimum_effect);
-  const double least_rise = least_lambda(rises_share * level);
-  const double least_fall = least_lambda((1 - rises_share) * level);
+  const double min_shift = std::log1p(rules.minimum_effect);
+  const double min_rise = min_lambda(rises_share * level);
+  const double min_fall = min_lambda((1 - rises_share) * level);
   const double normal_95 = boost::math::quantile(boost::math::normal(), 0.975);
-  const std::size_t most_after = std::max<std::size_t>(14, 2 * rules.least_after);
+  const std::size_t max_after = std::max<std::size_t>(14, 2 * rules.min_after);
   std::optional<TimeChange> change;
   double largest = 0;  // λ above its threshold
   std::size_t first = series.size();
-  for (std::size_t n = 1; n <= most_after && n + rules.least_before <= values.size(); ++n) {
+  for (std::size_t n = 1; n <= max_after && n + rules.min_before <= values.size(); ++n) {
     do {
       --first;
     } while (!std::isfinite(series[first]));
-    if (n < rules.least_after) continue;
+    if (n < rules.min_after) continue;
     const std::vector<double> before(values.begin(), values.end() - n);
     const std::vector<double> after(values.end() - n, values.end());
     // Skips most candidates cheaply: a median is not far from the level.
-    if (std::abs(median(after) - median(before)) < 0.8 * least_shift) continue;
+    if (std::abs(median(after) - median(before)) < 0.8 * min_shift) continue;
     const Level old_level = level_before(before, common_scale);
     const Level new_level = level_of(after, old_level.scale, true);
     const double shift = new_level.value - old_level.value;
     const double error = old_level.scale * std::sqrt(1 / old_level.runs + 1 / new_level.runs);
-    if (std::abs(shift) - standard_errors * error < least_shift ||
-        new_level.runs < static_cast<double>(rules.least_after) - 0.5 ||
+    if (std::abs(shift) - standard_errors * error < min_shift ||
+        new_level.runs < static_cast<double>(rules.min_after) - 0.5 ||
         new_level.runs < agreeing_share * static_cast<double>(n))
       continue;
     const double lambda = old_level.runs / (old_level.runs + new_level.runs) *
                           (log_likelihood(after, new_level.value, old_level.scale) -
                            log_likelihood(after, old_level.value, old_level.scale));
-    const double excess = lambda - (shift > 0 ? least_rise : least_fall);
+    const double excess = lambda - (shift > 0 ? min_rise : min_fall);
     if (excess <= largest) continue;
     largest = excess;
     change = TimeChange{first, shift, shift - normal_95 * error, shift + normal_95 * error, {}};
@@ -156,7 +155,7 @@ std::vector<TimeChange> find_time_changes(const TimeTable& table, const TimeRule
   for (std::size_t c = 0; c < cases; ++c)
     rows.push_back(recent(table.log_times[c], table.starts[c]));
 
-  const bool by_kernel = cases < least_cases;
+  const bool by_kernel = cases < min_cases;
   const std::vector<double> kernel = recent(table.log_kernel, 0);
   const std::vector<double> factor = by_kernel ? kernel : common_factor(rows, runs);
   std::vector<double> scales;

@@ -4,7 +4,7 @@
 // Data Analysis", 1977): a_c = median over t of x - f, f_t = median over c of x - a. A slowdown of
 // all cases is in f, so f_t - log κ_t is tested as one more series, if there are times κ of the
 // reference kernel, which no change of this program or its libraries touches. With fewer than
-// `least_cases` cases f would be their own changes; log κ_t replaces it.
+// `min_cases` cases f would be their own changes; log κ_t replaces it.
 //
 // The rest of each case is searched for a change of level. A value scatters about the level a as
 //   g(e) = (1 - ε) φ(e; σ) + ε φ(e; ω),   e = x_t - a,   ε = 0.1, ω = 0.25:
@@ -33,16 +33,16 @@ namespace airybench {
 // found within five runs in 95 % of histories of 60 runs, in 92 % of those of 20.
 struct TimeRules {
   double minimum_effect = 0.05;  // |δ| - 1.1 standard errors >= log(1 + this)
-  std::size_t least_after = 4;   // agreeing runs after a change; three may be outliers in a row
+  std::size_t min_after = 4;     // agreeing runs after a change; three may be outliers in a row
   // Family-wise level of one run's tests, over all cases and the common factor; slowdowns take nine
   // tenths. Tests of a series in successive runs are nearly the same test.
   double level_per_run = 0.012;
 
-  static constexpr std::size_t least_before = 8;  // runs before a change
+  static constexpr std::size_t min_before = 8;  // runs before a change
   // Times are tested from this many runs on.
-  std::size_t least_runs() const { return least_before + least_after; }
+  std::size_t min_runs() const { return min_before + min_after; }
 };
-constexpr std::size_t least_cases = 6;
+constexpr std::size_t min_cases = 6;
 constexpr std::size_t time_window = 60;  // runs looked back; keeps slow drift small
 
 // NaN: not measured. The newest run is the last.

@@ -137,7 +137,7 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
 }
 
 constexpr double grace_s = 60;  // beyond the solve: posing, judging and bisecting
-constexpr int most_restarts = 3;
+constexpr int max_restarts = 3;
 
 std::string obituary(const ChildEnd& end) {
   if (end.timed_out) return "a level took longer than --timeout";
@@ -220,7 +220,7 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
       });
       return seconds_since(asked) > left_s;
     });
-    if (process->was_suspended() && restarts++ < most_restarts) {
+    if (process->was_suspended() && restarts++ < max_restarts) {
       process.reset();  // the loop has timed its levels, and may have ended for lack of time
       levels.clear();
       continue;

@@ -22,8 +22,8 @@ namespace airybench {
 namespace {
 
 // Limits the correction that one level makes to the expectation for the next.
-constexpr double most_correction = 3;
-constexpr int most_cuts = 24;  // per triangle and level
+constexpr double max_correction = 3;
+constexpr int max_cuts = 24;  // per triangle and level
 
 std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
   constexpr double part_of_a_cut = 4;
@@ -87,7 +87,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   edges_ = problem->edges;
   if (expected_.squared > 0)
     more_squared_ = std::sqrt(  // most of what was missed was seen on the way
-        std::clamp(squared_ / expected_.squared, 1 / most_correction, most_correction));
+        std::clamp(squared_ / expected_.squared, 1 / max_correction, max_correction));
   judge_progress(level);
   return level;
 }
@@ -109,10 +109,10 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const ContactSystem& sy
 }
 
 bool AdaptiveLoop::knows_largest_stress() const {
-  constexpr double least_gain = 0.9;
-  constexpr std::size_t most_levels = 5;
-  return !doubt_ || doubt_->relative <= *settings_.stress_error || doubts_.size() >= most_levels ||
-         (!doubts_.empty() && doubt_->relative > least_gain * doubts_.back());
+  constexpr double min_gain = 0.9;
+  constexpr std::size_t max_levels = 5;
+  return !doubt_ || doubt_->relative <= *settings_.stress_error || doubts_.size() >= max_levels ||
+         (!doubts_.empty() && doubt_->relative > min_gain * doubts_.back());
 }
 
 bool AdaptiveLoop::is_met(const AdaptGoal& goal, const AdaptiveLevel& level) const {
@@ -122,20 +122,20 @@ bool AdaptiveLoop::is_met(const AdaptGoal& goal, const AdaptiveLevel& level) con
 
 void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {
   constexpr int growth = 8;
-  constexpr double least_gain = 0.9;
+  constexpr double min_gain = 0.9;
   if (!level.error) return;
   for (; !reached() && is_met(settings_.goals[goal_], level); ++goal_)
     level.goal = settings_.goals[goal_];
   history_.emplace_back(level.unknowns, *level.error);
   if (!reached() && *level.error == 0) ended_ = "the error is zero: there is nothing to refine";
   for (const auto& [unknowns, before] : history_)
-    if (!reached() && level.unknowns >= growth * unknowns && *level.error > least_gain * before)
+    if (!reached() && level.unknowns >= growth * unknowns && *level.error > min_gain * before)
       ended_ = fmt::format("{} times the unknowns have not lowered the error of {:.2g} %", growth,
                            100 * before);
 }
 
 BisectedMesh AdaptiveLoop::marked_and_bisected() const {
-  constexpr double margin = 1.1, step = 0.85, least_marking = 0.1;
+  constexpr double margin = 1.1, step = 0.85, min_marking = 0.1;
   const AdaptGoal& goal = settings_.goals[goal_];
   const auto& [unknowns, error] = history_.back();
   const double rate = 2. / (method_.degree + 1);  // e ~ N^−(k+1)/2
@@ -143,7 +143,7 @@ BisectedMesh AdaptiveLoop::marked_and_bisected() const {
       goal.error ? margin * unknowns * std::pow(error / *goal.error, rate) : *goal.unknowns;
   double marking = *settings_.marking;
   BisectedMesh finer = bisected(mesh_, cuts_of(parts_, marking));
-  while (mesh_sizes(finer.mesh).n_phi > needed && marking > least_marking) {
+  while (mesh_sizes(finer.mesh).n_phi > needed && marking > min_marking) {
     BisectedMesh smaller = bisected(mesh_, cuts_of(parts_, marking *= step));
     if (mesh_sizes(smaller.mesh).n_phi < needed) break;
     finer = std::move(smaller);
@@ -153,7 +153,7 @@ BisectedMesh AdaptiveLoop::marked_and_bisected() const {
 
 BisectedMesh AdaptiveLoop::bisected_as_expected() {
   // Growth in triangles per level; the first level only locates singular vertices.
-  constexpr double most_growth = 4, first_growth = 2, least_growth = 1.2;
+  constexpr double max_growth = 4, first_growth = 2, min_growth = 1.2;
   constexpr double aim = 0.96;  // of the goal: a near miss costs one more level
   using Finer = ExpectedParts::Finer;
   const AdaptGoal& goal = settings_.goals[goal_];
@@ -164,7 +164,7 @@ BisectedMesh AdaptiveLoop::bisected_as_expected() {
     return triangles + more_triangles_ * (finer.triangles - triangles);
   };
   const auto is_enough = [&](const Finer& finer, double count) {
-    return with_neighbours(finer) >= count || finer.triangles > most_triangles;
+    return with_neighbours(finer) >= count || finer.triangles > max_triangles;
   };
   const auto until = [&](double count) {
     return expected.cut_until([&](const Finer& finer) { return is_enough(finer, count); });
@@ -172,22 +172,22 @@ BisectedMesh AdaptiveLoop::bisected_as_expected() {
   if (goal.error) {
     const double left = std::pow(aim * *goal.error / error, 2) * squared_;
     expected_ = expected.cut_until([&](const Finer& finer) {
-      return is_enough(finer, least_growth * triangles) &&
-             (more_squared_ * finer.squared <= left || finer.triangles > most_triangles);
+      return is_enough(finer, min_growth * triangles) &&
+             (more_squared_ * finer.squared <= left || finer.triangles > max_triangles);
     });
   } else {
     expected_ = until(triangles * *goal.unknowns / unknowns / aim);
   }
   const double growth = with_neighbours(expected_) / triangles,
-               steps = std::ceil(std::log(growth) / std::log(most_growth));
-  const double first = history_.size() == 1 ? first_growth : most_growth;
+               steps = std::ceil(std::log(growth) / std::log(max_growth));
+  const double first = history_.size() == 1 ? first_growth : max_growth;
   if (steps > 1 || growth > first)
     expected_ = until(triangles * std::min(first, std::pow(growth, 1 / steps)));
   BisectedMesh finer = bisected(mesh_, [&](const TrianglePart& part) {
-    return part.cuts < most_cuts && expected.of(part) > expected_.largest;
+    return part.cuts < max_cuts && expected.of(part) > expected_.largest;
   });
   const double born = static_cast<double>(finer.mesh.triangles.size()) - triangles;
-  more_triangles_ = std::clamp(born / (expected_.triangles - triangles), 1., most_correction);
+  more_triangles_ = std::clamp(born / (expected_.triangles - triangles), 1., max_correction);
   return finer;
 }
 
@@ -207,8 +207,8 @@ BisectedMesh AdaptiveLoop::bisected_at_largest_stress() {
 
 // Where a contact edge has been cut, so is the one that it faces.
 BisectedMesh AdaptiveLoop::cut_opposite_edges(BisectedMesh finer) const {
-  constexpr int most_passes = 20;  // then the edges' triangles are split instead
-  for (int pass = 0; pass < most_passes && !scene_.contacts.empty(); ++pass) {
+  constexpr int max_passes = 20;  // then the edges' triangles are split instead
+  for (int pass = 0; pass < max_passes && !scene_.contacts.empty(); ++pass) {
     const std::vector<int> rows = with_matched_faces(finer.mesh, scene_).split_rows;
     if (rows.empty()) break;
     const MeshEdges edges = number_edges(finer.mesh);
@@ -233,8 +233,8 @@ bool AdaptiveLoop::refine() {
   else
     finer.mesh = uniformly_refined(mesh_);
   finer = cut_opposite_edges(std::move(finer));
-  if (finer.mesh.triangles.size() > most_triangles)
-    ended_ = fmt::format("the next mesh would have more than {} triangles", most_triangles);
+  if (finer.mesh.triangles.size() > max_triangles)
+    ended_ = fmt::format("the next mesh would have more than {} triangles", max_triangles);
   else if (finer.mesh.triangles.size() == mesh_.triangles.size())
     ended_ = "the marked triangles are too small for their points to be told apart";
   else

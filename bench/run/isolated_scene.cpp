@@ -25,7 +25,7 @@
 namespace airybench {
 namespace {
 
-constexpr int most_tries = 4;
+constexpr int max_tries = 4;
 
 struct Command {
   explicit Command(const std::string& line) { std::istringstream(line) >> verb >> k; }
@@ -140,7 +140,7 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
         answer.reset();
         last.end = {Status::machine_fault,
                     fmt::format("its process was suspended in all of {} attempts", attempts)};
-        if (attempts == most_tries) break;
+        if (attempts == max_tries) break;
         if (examines) own.process.reset();
       }
     } catch (const std::system_error& error) {  // no process could be started
@@ -226,8 +226,8 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Limi
 }
 
 bool IsolatedScene::is_silent() const {
-  constexpr double most_silent_s = 20;
-  return board_.activity() == Activity::none && board_.silent_s() > most_silent_s;
+  constexpr double max_silent_s = 20;
+  return board_.activity() == Activity::none && board_.silent_s() > max_silent_s;
 }
 
 std::string IsolatedScene::sign_of(const std::string& verb, std::size_t k, double since_s) const {
@@ -264,7 +264,7 @@ void IsolatedScene::prepare_all() {
       }
     // Another process for the others, if the last one's assembly has ended this.
     const bool is_lost = process_ == nullptr && broken_assemblies_.size() > broken;
-    if (!is_lost && (!was_suspended || attempt == most_tries)) break;
+    if (!is_lost && (!was_suspended || attempt == max_tries)) break;
     process_.reset();  // it has timed the assembly
   }
   prepared_ = true;
@@ -274,7 +274,7 @@ void IsolatedScene::prepare_all() {
 void IsolatedScene::prepare(std::size_t k) {
   const BlocksKey blocks = blocks_key(cases_[k]->method);
   // Assembly, reference and discretisation may each break.
-  for (int attempt = 0; attempt < most_tries && !broken_assemblies_.contains(blocks); ++attempt) {
+  for (int attempt = 0; attempt < max_tries && !broken_assemblies_.contains(blocks); ++attempt) {
     if (process_ == nullptr) {
       examined_.clear();
       try {

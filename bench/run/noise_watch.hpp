@@ -50,8 +50,8 @@ void swap_samples(Record& a, Record& b);
 
 class NoiseWatch {
  public:
-  // most_noise: allowed noise of an attempt; empty: judge and repeat nothing.
-  NoiseWatch(std::optional<double> most_noise, Machine machine);
+  // max_noise: allowed noise of an attempt; empty: judge and repeat nothing.
+  NoiseWatch(std::optional<double> max_noise, Machine machine);
 
   void learn(const Record& record) {
     level_.add(record.noise_kernel_samples_s);
@@ -63,7 +63,7 @@ class NoiseWatch {
   void wait_for_quiet();
 
   bool is_noisy(const Record& record) const;
-  std::string line(const Record& record, std::size_t attempt, int most_attempts) const;
+  std::string line(const Record& record, std::size_t attempt, int max_attempts) const;
   // Leaves the quietest attempt's samples and noise in the record, which holds the last attempt's.
   // A case whose last attempt failed has failed.
   void keep_quietest(std::vector<Record> earlier, Record& record, std::ostream& progress) const;
@@ -71,7 +71,7 @@ class NoiseWatch {
  private:
   double noise_beside(const std::vector<double>& passes_s) const;
 
-  std::optional<double> most_noise_;
+  std::optional<double> max_noise_;
   Machine machine_;
   QuietLevel level_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_pass_;
@@ -87,7 +87,7 @@ class EarlyPasses {
  private:
   struct Passed {
     std::vector<double> passes_s;
-    double most_noise;
+    double max_noise;
   };
   std::vector<Passed> passed_;
   std::optional<double> quiet_s_;

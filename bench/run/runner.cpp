@@ -35,7 +35,7 @@ namespace airybench {
 namespace {
 
 constexpr int passes_beside = 3;  // before a case, and after it
-constexpr int most_attempts = 4;
+constexpr int max_attempts = 4;
 
 void initialize_benchmark(bool interleave) {
   static std::string program = "bench";  // the library keeps a pointer to it
@@ -173,7 +173,7 @@ class SceneRunner {
 
   // A long case gets one further sample, from a timed run.
   void measure_noisy_again() {
-    for (std::size_t made = 1; made < most_attempts; ++made) {
+    for (std::size_t made = 1; made < max_attempts; ++made) {
       std::vector<std::size_t> noisy;
       for (std::size_t k = 0; k < cases_.size(); ++k)
         if (cases_[k].finished && !cases_[k].written && watch_.is_noisy(*cases_[k].record))
@@ -181,7 +181,7 @@ class SceneRunner {
       if (noisy.empty()) return;
       for (const std::size_t k : noisy) {
         Record& record = *cases_[k].record;
-        std::cerr << watch_.line(record, made, most_attempts) << std::flush;
+        std::cerr << watch_.line(record, made, max_attempts) << std::flush;
         swap_samples(record, cases_[k].noisy.emplace_back());
       }
       watch_.wait_for_quiet();

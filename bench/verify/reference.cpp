@@ -18,13 +18,13 @@ namespace {
 double solve_contact_to_rounding(const HybridizedSystemIn<Wide>& system, const LoadScale& scale,
                                  const Eigen::VectorXd& start, const MultifrontalFactor& factor,
                                  Reference& reference, Refined& refined) {
-  constexpr int most_steps = 20;
+  constexpr int max_steps = 20;
   const Eigen::MatrixXd& D = reference.condensed.D;
   const ContactPoints& contact = reference.condensed.points;
   Eigen::VectorXd F = start;
   Refined at_F;
   double error = 0, best = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < most_steps && F.allFinite(); ++step) {
+  for (int step = 0; step < max_steps && F.allFinite(); ++step) {
     refine(system, factor, F, at_F);
     const WideVector u = at_F.u.tail(system.n_c);
     const Eigen::VectorXd r = relative_to_gap(contact, u).cast<double>();

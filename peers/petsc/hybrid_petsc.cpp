@@ -128,7 +128,7 @@ void write_answer(const std::filesystem::path& folder, const Eigen::Matrix4Xd& u
                    coarse == nullptr                      ? "none"
                    : coarse->kind() == CoarseKind::linear ? "linear"
                                                           : "per-edge",
-                   coarse_unknowns, answer.most_in_a_step)}};
+                   coarse_unknowns, answer.max_in_a_step)}};
   if (answer.converged)
     json["error_estimate"] = estimate;
   else

@@ -141,8 +141,8 @@ int main(int count, char** words) {
   for (int k = 0; k < size; ++k) vector << std::setprecision(17) << scale[k] * r[k] << '\n';
   vector.close();
   const double residual = options->dparam[SICONOS_DPARAM_RESIDU];
-  constexpr double most_of_pivots = 1e-8;
-  const bool solved = info == 0 && (method != "lemke" || residual <= most_of_pivots);
+  constexpr double max_of_pivots = 1e-8;
+  const bool solved = info == 0 && (method != "lemke" || residual <= max_of_pivots);
   std::ofstream answer(output + "/answer.json");
   answer << std::setprecision(17) << R"({"status": ")" << (solved ? "ok" : "not_converged")
          << R"(", "message": "info = )" << info << ", residual " << residual << R"(", "time_s": )"

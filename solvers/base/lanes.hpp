@@ -12,20 +12,20 @@ namespace airybench {
 
 using LaneBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-inline constexpr int most_lanes = 16;
-using LaneScalars = std::array<double, most_lanes>;  // one per lane; those beyond are not used
+inline constexpr int max_lanes = 16;
+using LaneScalars = std::array<double, max_lanes>;  // one per lane; those beyond are not used
 
-// Calls f with the number of lanes as a compile-time constant: 1 or most_lanes; throws
+// Calls f with the number of lanes as a compile-time constant: 1 or max_lanes; throws
 // std::invalid_argument for any other.
 template <typename F>
 void with_lanes(Eigen::Index lanes, F f) {
   if (lanes == 1)
     f(std::integral_constant<int, 1>());
-  else if (lanes == most_lanes)
-    f(std::integral_constant<int, most_lanes>());
+  else if (lanes == max_lanes)
+    f(std::integral_constant<int, max_lanes>());
   else
     throw std::invalid_argument("a block of " + std::to_string(lanes) + " lanes (allowed: 1, " +
-                                std::to_string(most_lanes) + ")");
+                                std::to_string(max_lanes) + ")");
 }
 
 // y_l += a_l x_l.

@@ -44,8 +44,8 @@ struct Tuning {
 enum class AccuracyKnob {
   none,              // a direct method: it has one accuracy
   krylov_tolerance,  // RunControl::tolerance
-  uzawa_iterations,  // RunControl::most_iterations
-  contact_sweeps,    // ContactOptions::most_iterations
+  uzawa_iterations,  // RunControl::max_iterations
+  contact_sweeps,    // ContactOptions::max_iterations
   stop               // RunControl::stop; parameters are chosen for it
 };
 

@@ -168,7 +168,7 @@ struct ContactOptions {
   ContactSolver solver = ContactSolver::newton;
   double tolerance = 1e-12;  // ‖natural map‖ ≤ tolerance · ‖F_C‖
   double acceptable = 1e-12;  // ‖natural map‖ ≤ acceptable · ‖F_C‖, when iterations have ended
-  int most_iterations = 100000;  // sweeps, where the solver makes these
+  int max_iterations = 100000;  // sweeps, where the solver makes these
   bool history = false;
   Eigen::VectorXd start = {};  // contact forces, N; empty: zero
   // Another's contact solver, instead of ours.
@@ -186,8 +186,8 @@ struct RunControl {
   double target_error = 1e-6;  // error_estimate ≤ target_error, or the method says `inaccurate`
   // Of the method's iteration: KrylovOptions, RowsOptions, UzawaOptions.
   double tolerance = 1e-10;
-  std::optional<int> most_iterations = {};  // Krylov's per right-hand side, Uzawa's; else their own
-  ContactOptions contact = {};              // with the paper's stop its solver is Gauss–Seidel
+  std::optional<int> max_iterations = {};  // Krylov's per right-hand side, Uzawa's; else their own
+  ContactOptions contact = {};             // with the paper's stop its solver is Gauss–Seidel
 };
 
 // After an iteration that has not converged: not_converged with this message, but a breakdown where

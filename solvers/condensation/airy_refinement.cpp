@@ -103,12 +103,12 @@ CheckContact with_D(const contact::Problem& condensed, const LoadScale& scale) {
 void check(const Checked& of, const SaddleVector& answer, const RunControl& control,
            Solution& solution) {
   constexpr double trusted = 1e-10, little = 0.1;
-  constexpr int most_corrections = 6;
+  constexpr int max_corrections = 6;
   AiryResidual at = airy_residual(of.system, in_long(answer), solution.F_C);
   Eigen::VectorXd lambda_C = answer.lambda_C;
   Correction next = correction(of, at, solution.F_C, lambda_C);
   double estimate = next.estimate, corrected = next.energy_norm;
-  for (int k = 1; k < most_corrections && estimate > trusted; ++k) {
+  for (int k = 1; k < max_corrections && estimate > trusted; ++k) {
     control.deadline.check("the check of the answer");
     subtract_product(of.system, next, at.residual);
     lambda_C += next.delta.lambda_C;
@@ -150,7 +150,7 @@ void check_airy_answer_without_D(const AirySystem& system, const SaddleSolve& so
 void refine_airy_answer(const AirySystem& system, const contact::Problem& condensed,
                         const SaddleSolve& solve, const SaddleVector& answer,
                         const RunControl& control, Solution& solution) {
-  constexpr int most_steps = 20;
+  constexpr int max_steps = 20;
   const LoadScale scale = load_scale(*system.problem);
   const Checked of{system, with_D(condensed, scale), scale, solve};
   LongSaddleVector trial = in_long(answer), best = trial;
@@ -161,7 +161,7 @@ void refine_airy_answer(const AirySystem& system, const contact::Problem& conden
   };
   Correction next = next_correction(0);
   double estimate = next.estimate;
-  for (int step = 0; step < most_steps && estimate > 0 && std::isfinite(next.estimate); ++step) {
+  for (int step = 0; step < max_steps && estimate > 0 && std::isfinite(next.estimate); ++step) {
     control.deadline.check("refinement");
     add(trial, next.delta);
     if (F.size() > 0) {

@@ -8,12 +8,12 @@ namespace airybench {
 
 void refine(const HybridizedSystemIn<Wide>& system, const MultifrontalFactor& factor,
             const Eigen::VectorXd& F_C, Refined& refined) {
-  constexpr int most_corrections = 30;
+  constexpr int max_corrections = 30;
   if (refined.u.size() == 0) refined.u.setZero(system.b.size());
   WideVector load = system.b;
   load.tail(system.n_c) += F_C.cast<Wide>();
   double before = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < most_corrections; ++step) {
+  for (int step = 0; step < max_corrections; ++step) {
     WideVector product = WideVector::Zero(load.size());
     add_product(system.K, refined.u, product);
     const Eigen::VectorXd r = (load - product).cast<double>();

@@ -90,11 +90,11 @@ namespace {
 // the plane only signs change; steps are whole.
 Eigen::VectorXd damped(const contact::Problem& problem, const Eigen::VectorXd& F,
                        const Eigen::VectorXd& next, double natural_map_of_F) {
-  constexpr int most_halvings = 6;
+  constexpr int max_halvings = 6;
   if (problem.points.components != 3 && problem.is_dense()) return next;
   Eigen::VectorXd best = next;
   double least = std::numeric_limits<double>::infinity(), part = 1;
-  for (int halving = 0; halving <= most_halvings && least >= natural_map_of_F;
+  for (int halving = 0; halving <= max_halvings && least >= natural_map_of_F;
        ++halving, part /= 2) {
     const Eigen::VectorXd tried = F + part * (next - F);
     const double natural_map = relative_natural_map(problem, tried);
@@ -114,7 +114,7 @@ void finish_by_active_set(const contact::Problem& problem, const ContactOptions&
   const double enough = options.tolerance / 100;
   Eigen::VectorXd F = result.F_C;
   int since_best = 0;
-  for (int step = 0; step <= limits.most_steps && since_best <= limits.patience;
+  for (int step = 0; step <= limits.max_steps && since_best <= limits.patience;
        ++step, ++since_best) {
     if (!std::isfinite(F.norm())) break;
     const Eigen::VectorXd u = D_times(problem, F) - problem.G;
@@ -150,7 +150,7 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     steps = linear.active_set_steps;
   }
   for (int next = first_sweeps;; next *= 10) {
-    part.most_iterations = std::min(next, options.most_iterations - sweeps);
+    part.max_iterations = std::min(next, options.max_iterations - sweeps);
     const ContactResult swept = problem.bodies
                                     ? solve_contact_by_admm(problem, part, deadline)
                                     : solve_contact_by_gauss_seidel(problem, part, deadline);
@@ -161,13 +161,13 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     finish_by_active_set(problem, options, deadline, result);
     // With a dense D more sweeps, where any are left, are cheaper and mostly do.
     const bool sweeps_again =
-        problem.is_dense() && next == first_sweeps && sweeps < options.most_iterations;
+        problem.is_dense() && next == first_sweeps && sweeps < options.max_iterations;
     if (!result.converged && !problem.bodies && !sweeps_again && result.F_C.allFinite())
       finish_by_proximal_points(problem, options, deadline, result);
     steps += result.active_set_steps;
     if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)
       best = std::move(result);
-    if (best.converged || sweeps >= options.most_iterations || !swept.F_C.allFinite()) break;
+    if (best.converged || sweeps >= options.max_iterations || !swept.F_C.allFinite()) break;
   }
   best.iterations = sweeps;
   best.active_set_steps = steps;

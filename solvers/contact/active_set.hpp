@@ -31,7 +31,7 @@ Eigen::VectorXd active_set_step(const contact::Problem& problem, const Eigen::Ve
 // Goes on from a result, and replaces it by a better one, if it finds one: until the natural map is
 // a hundredth of options.tolerance, or, below that tolerance, no longer halves.
 struct ActiveSetLimits {
-  int most_steps = 100, patience = 15;  // patience: steps without a smaller natural map
+  int max_steps = 100, patience = 15;  // patience: steps without a smaller natural map
 };
 void finish_by_active_set(const contact::Problem& problem, const ContactOptions& options,
                           const Deadline& deadline, ContactResult& result,

@@ -10,7 +10,7 @@ namespace airybench {
 namespace {
 
 using Eigen::Index;
-constexpr double tied = 1e-11, least_pivot = 1e-8;
+constexpr double tied = 1e-11, min_pivot = 1e-8;
 
 // T x = 0 with x = (w, z, z0; 1, ε, …): the identity in the columns of the basis.
 class Tableau {
@@ -77,7 +77,7 @@ class Tableau {
 
 std::optional<Eigen::MatrixXd> solve_complementarity(const Eigen::MatrixXd& A,
                                                      const Eigen::MatrixXd& b) {
-  const Index n = A.rows(), most_pivots = 100 + 50 * n;
+  const Index n = A.rows(), max_pivots = 100 + 50 * n;
   constexpr Index refreshed_after = 16;
   Tableau tableau(A, b);
   std::vector<Index> rows;
@@ -86,7 +86,7 @@ std::optional<Eigen::MatrixXd> solve_complementarity(const Eigen::MatrixXd& A,
   if (rows.empty()) return Eigen::MatrixXd::Zero(n, b.cols());
   Index entering = tableau.artificial();
   Index row = tableau.first_row(rows, Eigen::VectorXd::Ones(n));
-  for (Index pivots = 0; pivots < most_pivots; ++pivots) {
+  for (Index pivots = 0; pivots < max_pivots; ++pivots) {
     const Index leaving = tableau.pivot(row, entering);
     const bool is_done = leaving == tableau.artificial();
     if (is_done || pivots % refreshed_after == 0) tableau.refresh();
@@ -95,7 +95,7 @@ std::optional<Eigen::MatrixXd> solve_complementarity(const Eigen::MatrixXd& A,
     const Eigen::VectorXd divisor = tableau.column(entering);
     rows.clear();
     for (Index i = 0; i < n; ++i)
-      if (divisor(i) > least_pivot * std::max(1., divisor.maxCoeff())) rows.push_back(i);
+      if (divisor(i) > min_pivot * std::max(1., divisor.maxCoeff())) rows.push_back(i);
     if (rows.empty()) return {};
     row = tableau.first_row(rows, divisor);
   }

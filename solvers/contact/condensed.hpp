@@ -35,7 +35,7 @@ ContactResult solve_contact(const contact::Problem& problem, const ContactOption
 Eigen::VectorXd contact_offset(const contact::Problem& problem);
 
 // Iterates F ← next(F), which returns the norm of its change, until the natural map is below the
-// tolerance or options.most_iterations are done, and says which. The map is asked for when the
+// tolerance or options.max_iterations are done, and says which. The map is asked for when the
 // change is below the tolerance. Throws TimeoutReached.
 template <typename Next>
 ContactResult iterate_contact(const contact::Problem& problem, const ContactOptions& options,
@@ -47,7 +47,7 @@ ContactResult iterate_contact(const contact::Problem& problem, const ContactOpti
     result.natural_map_residual = relative_natural_map(problem, F);
     return result.natural_map_residual <= allowed;
   };
-  while (result.iterations < options.most_iterations && !result.converged) {
+  while (result.iterations < options.max_iterations && !result.converged) {
     const double change = next(F);
     ++result.iterations;
     const double norm = F.norm();

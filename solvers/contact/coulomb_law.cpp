@@ -119,11 +119,11 @@ Eigen::Vector3d solve_coulomb_law(const Eigen::Matrix3d& D, const Eigen::Vector3
   const Slip stick = slip_with(0);
   if (stick.excess <= 0) return forces(stick);
 
-  constexpr int most_steps = 100;
+  constexpr int max_steps = 100;
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   double low = 0, high = std::numeric_limits<double>::infinity(), kappa = 0;
   Slip slip = stick;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     (slip.excess > 0 ? low : high) = kappa;
     double next = kappa + slip.step;
     if (!(next > low && next < high))

@@ -70,7 +70,7 @@ void refuse_loads_on_open_motions(const RigidContact& rigid) {
 
 ContactResult solve_with_free_bodies(const contact::Problem& problem, const ContactOptions& options,
                                      const Deadline& deadline) {
-  constexpr int most_steps = 16;
+  constexpr int max_steps = 16;
   constexpr double balanced = 1e-13, nearly_balanced = 1e-11, rough = 1e-8;  // of relative
   constexpr double enough = 1e-9;                                            // at the end
   constexpr double noise = 1e-3;                                             // of rounding_N
@@ -107,7 +107,7 @@ ContactResult solve_with_free_bodies(const contact::Problem& problem, const Cont
     const double least = problem.D.diagonal().mean() / N.rowwise().squaredNorm().mean();
     double m = least, before = std::numeric_limits<double>::infinity();
     from_here.acceptable = std::max(options.acceptable, rough);  // the last solve makes up for it
-    for (int step = 0; step < most_steps; ++step, m *= 10) {
+    for (int step = 0; step < max_steps; ++step, m *= 10) {
       const Unbalanced unbalanced = solve_held(m);
       const double left = unbalanced.relative;
       if (!result.F_C.allFinite()) return result;

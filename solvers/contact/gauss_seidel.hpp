@@ -21,7 +21,7 @@ class GaussSeidel {
   Eigen::MatrixXd transposed_;  // of a dense D that is not symmetric; else empty
 };
 
-// Not converged after options.most_iterations, unless to options.acceptable, or when a force is
+// Not converged after options.max_iterations, unless to options.acceptable, or when a force is
 // not finite.
 ContactResult solve_contact_by_gauss_seidel(const contact::Problem& problem,
                                             const ContactOptions& options = {},

@@ -10,7 +10,7 @@ namespace airybench {
 void finish_by_proximal_points(const contact::Problem& problem, const ContactOptions& options,
                                const Deadline& deadline, ContactResult& result) {
   constexpr int patience = 60;  // points without a natural map half as large
-  constexpr ActiveSetLimits few = {.most_steps = 12, .patience = 3};
+  constexpr ActiveSetLimits few = {.max_steps = 12, .patience = 3};
   const double mean = D_diagonal(problem).mean();
   contact::Problem shifted = problem;
   double s = 0, next_s = 0.01, to_halve = result.natural_map_residual;

@@ -5,7 +5,7 @@
 namespace airybench {
 
 WeightedCompliance::WeightedCompliance(const contact::Problem& problem) : problem_(&problem) {
-  constexpr std::int64_t most_fill = 4;
+  constexpr std::int64_t max_fill = 4;
   if (problem.is_dense()) return;
   cholmod_ = std::make_unique<CholmodFactor>();
   if (problem.bodies) {
@@ -17,7 +17,7 @@ WeightedCompliance::WeightedCompliance(const contact::Problem& problem) : proble
   lower_ = (Eigen::SparseMatrix<double>(problem.rows) + transposed).triangularView<Eigen::Lower>();
   lower_ *= 0.5;
   cholmod_->analyse(lower_);
-  if (cholmod_->entries() <= most_fill * problem.rows.nonZeros()) return;
+  if (cholmod_->entries() <= max_fill * problem.rows.nonZeros()) return;
   cholmod_.reset();
   lower_.resize(0, 0);
 }
@@ -48,7 +48,7 @@ void WeightedCompliance::factorise(const Eigen::VectorXd& weight) {
 // Preconditioned by the diagonal.
 void WeightedCompliance::solve_iteratively(const Eigen::VectorXd& b, Eigen::VectorXd& F) const {
   constexpr double tolerance = 1e-14;  // ‖b − (D + W) F‖ ≤ tolerance · ‖b‖
-  constexpr int most_iterations = 500;
+  constexpr int max_iterations = 500;
   const SparseRows& D = problem_->rows;
   const auto times = [&](const Eigen::VectorXd& x) {
     Eigen::VectorXd y = D * x;
@@ -58,7 +58,7 @@ void WeightedCompliance::solve_iteratively(const Eigen::VectorXd& b, Eigen::Vect
   const Eigen::VectorXd inverse = (D.diagonal() + weight_).cwiseInverse();
   Eigen::VectorXd rest = b - times(F), z = inverse.cwiseProduct(rest), along = z;
   double product = rest.dot(z);
-  for (int k = 0; k < most_iterations && rest.norm() > tolerance * b.norm(); ++k) {
+  for (int k = 0; k < max_iterations && rest.norm() > tolerance * b.norm(); ++k) {
     const Eigen::VectorXd image = times(along);
     const double length = product / along.dot(image);
     F += length * along;

@@ -41,7 +41,7 @@ double norm_1(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXd& d
 
 double estimate_condition(const Eigen::SparseMatrix<double>& lower,
                           const std::function<void(Eigen::Ref<Eigen::MatrixXd>)>& solve) {
-  constexpr int most_vertices = 5;
+  constexpr int max_vertices = 5;
   const Eigen::Index n = lower.rows();
   if (n == 0) return 1;
   const Eigen::VectorXd d = equilibrating(lower);
@@ -52,7 +52,7 @@ double estimate_condition(const Eigen::SparseMatrix<double>& lower,
   };
   Eigen::VectorXd x = Eigen::VectorXd::Constant(n, 1 / static_cast<double>(n));
   double largest = 0;
-  for (int vertex = 0; vertex < most_vertices; ++vertex) {
+  for (int vertex = 0; vertex < max_vertices; ++vertex) {
     const Eigen::VectorXd y = inverse(x);
     if (!y.allFinite()) return std::numeric_limits<double>::infinity();
     const double norm = y.lpNorm<1>();

@@ -106,13 +106,13 @@ Eigen::MatrixXd inverse_from_factor(Eigen::MatrixXd L) {
 
 Eigen::VectorXd solve_by_lu(Eigen::MatrixXd A, Eigen::VectorXd b) {
   constexpr int worth_rounding = 128;  // below, conversions cost what floats save
-  constexpr int most_rounded = 46340;  // dsgesv counts n² in an int
+  constexpr int max_rounded = 46340;   // dsgesv counts n² in an int
   const auto n = static_cast<int>(A.rows());
   if (n == 0) return b;
   Eigen::VectorXi pivots(n);
   const int columns = 1;
   int info = 0;
-  if (n < worth_rounding || n > most_rounded) {
+  if (n < worth_rounding || n > max_rounded) {
     dgesv_(&n, &columns, A.data(), &n, pivots.data(), b.data(), &n, &info);
   } else {
     Eigen::VectorXd x(n), residual(n);

@@ -179,7 +179,7 @@ void expand(const cholmod_factor& supernodes, const UnknownBlocks& blocks,
         result.rows.push_back(place);
     front.rows = static_cast<int>(result.rows.size() - front.rows_at);
     front.panel_at = result.panel_entries;
-    result.most_rows = std::max(result.most_rows, front.rows);
+    result.max_rows = std::max(result.max_rows, front.rows);
     result.panel_entries += static_cast<std::size_t>(front.rows) * front.pivots;
   }
 }

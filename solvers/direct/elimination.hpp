@@ -36,7 +36,7 @@ struct Elimination {
   std::vector<int> order;  // of the fronts: every one after its children
   std::vector<int> rows;
   int trailing = 0;
-  int most_rows = 0;               // of a front
+  int max_rows = 0;                // of a front
   std::size_t panel_entries = 0;   // of all fronts
   std::size_t update_doubles = 0;  // most at a time, by the fronts' order
   std::int64_t entries() const;    // of L, with the zeros that supernodes store

@@ -26,7 +26,7 @@ class Fronts {
         K_(K),
         waiting_(std::make_unique_for_overwrite<double[]>(elimination.update_doubles)),
         row_of_(elimination.place.size(), -1),
-        to_(static_cast<std::size_t>(elimination.most_rows)),
+        to_(static_cast<std::size_t>(elimination.max_rows)),
         run_end_(to_.size()),
         element_row_(static_cast<std::size_t>(K.size)),
         element_column_(element_row_.size()) {
@@ -222,7 +222,7 @@ int pivots_before(int end, const Front& front) {
 template <typename Entry>
 void solve_forward(const Elimination& elimination, const Entry* panels, int end,
                    Eigen::VectorXd& y) {
-  std::vector<double> of_front(elimination.most_rows);  // its pivots and the rows below
+  std::vector<double> of_front(elimination.max_rows);  // its pivots and the rows below
   for (const Front& front : elimination.fronts) {
     const int pivots = pivots_before(end, front);
     if (pivots == 0) continue;
@@ -250,7 +250,7 @@ void solve_forward(const Elimination& elimination, const Entry* panels, int end,
 template <typename Entry>
 void solve_backward(const Elimination& elimination, const Entry* panels, int end,
                     Eigen::VectorXd& of_all) {
-  std::vector<double> of_front(elimination.most_rows);
+  std::vector<double> of_front(elimination.max_rows);
   for (std::size_t f = elimination.fronts.size(); f-- > 0;) {
     const Front& front = elimination.fronts[f];
     const int pivots = pivots_before(end, front);

@@ -10,7 +10,7 @@
 namespace airybench {
 namespace {
 
-constexpr int most_extra_workspace = 5000;  // per cent
+constexpr int max_extra_workspace = 5000;  // per cent
 
 enum Symmetric { positive_definite = 1, indefinite = 2 };
 enum Job { start = -1, finish = -2, analysis = 1, factorisation = 2, solution = 3 };
@@ -71,7 +71,7 @@ void MumpsFactor::call(int job, const char* doing) {
   for (int& extra = mumps_.icntl[no(14)];; extra *= 2) {  // workspace beyond the estimate, per cent
     mumps_.job = job;
     dmumps_c(&mumps_);
-    if (!wants_more_workspace(mumps_.infog[no(1)]) || extra > most_extra_workspace) break;
+    if (!wants_more_workspace(mumps_.infog[no(1)]) || extra > max_extra_workspace) break;
   }
   const int info = mumps_.infog[no(1)], detail = mumps_.infog[no(2)];
   if (info >= 0) return;

@@ -132,7 +132,7 @@ void factor_panel(SkylineFactor& factor, std::size_t k, Eigen::MatrixXd& scaled)
 
 // Brings the rows of every panel into the panel's order, or back.
 void permute_rows(const SkylineProfile& profile, Eigen::Ref<Eigen::MatrixXd> x, bool back) {
-  std::array<double, most_panel_rows> buffer;
+  std::array<double, max_panel_rows> buffer;
   for (Eigen::Index j = 0; j < x.cols(); ++j)
     for (const SkylinePanel& panel : profile.panels) {
       double* rows = &x(panel.row, j);

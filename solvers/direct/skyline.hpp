@@ -61,10 +61,10 @@ struct SkylineProfile {
 // Order of the rows inside a panel: tall ones first, or as they are numbered (more padding).
 enum class PanelOrder { tall_first, as_numbered };
 
-// lower: lower triangle with sorted columns. panel_rows: rows per panel, 1 … most_panel_rows; the
+// lower: lower triangle with sorted columns. panel_rows: rows per panel, 1 … max_panel_rows; the
 // last may have fewer. More rows make faster products and more padding (Mesh7: 1.19 of the profile
 // is stored with 48, 1.25 with 64).
-inline constexpr int most_panel_rows = 256;
+inline constexpr int max_panel_rows = 256;
 SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int panel_rows = 48,
                                PanelOrder order = PanelOrder::tall_first);
 

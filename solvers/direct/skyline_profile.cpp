@@ -41,9 +41,9 @@ std::vector<int> rows_as_numbered(SkylinePanel& panel, const std::vector<int>& f
 
 SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int panel_rows,
                                PanelOrder panel_order) {
-  if (panel_rows < 1 || panel_rows > most_panel_rows)
+  if (panel_rows < 1 || panel_rows > max_panel_rows)
     throw std::invalid_argument("analyse_skyline: panel_rows is " + std::to_string(panel_rows) +
-                                " (allowed: 1 to " + std::to_string(most_panel_rows) + ")");
+                                " (allowed: 1 to " + std::to_string(max_panel_rows) + ")");
   SkylineProfile profile;
   const int n = profile.n = static_cast<int>(lower.rows());
   profile.panel_of_row.resize(n);

@@ -37,7 +37,7 @@ KrylovSummary solve_range(const SparseColumns& lower, const Preconditioner& prec
   const auto finish = [&](int l) {
     sides.store(in[l], x.col(l));
     summary.iterations += iterations[l];
-    summary.most_iterations = std::max(summary.most_iterations, iterations[l]);
+    summary.max_iterations = std::max(summary.max_iterations, iterations[l]);
     summary.residual = std::max(summary.residual, residual[l]);
     summary.converged = summary.converged && residual[l] <= options.tolerance;
     begin_next(l);
@@ -57,7 +57,7 @@ KrylovSummary solve_range(const SparseColumns& lower, const Preconditioner& prec
       if (iterations[l] == 0) rz_start[l] = rz_new[l];
       residual[l] = rz_start[l] > 0 ? std::sqrt(rz_new[l] / rz_start[l]) : 0;
       if (in[l] == 0) summary.history.push_back(residual[l]);
-      if (residual[l] <= options.tolerance || iterations[l] >= options.most_iterations) {
+      if (residual[l] <= options.tolerance || iterations[l] >= options.max_iterations) {
         finish(l);  // the next one begins in the next round, with its own z
         continue;
       }

@@ -64,7 +64,7 @@ GmresResult solve_by_gmres(const ApplyTo& A, const ApplyTo& M_inverse, const Eig
                            KrylovSpace& space, Eigen::VectorXd& x) {
   const OwnerScope scope(MemoryOwner::iteration);
   constexpr double rounding = 1e-7;  // of norms from differences of squares
-  const int most = options.most_iterations;
+  const int most = options.max_iterations;
   std::vector<Eigen::VectorXd>& Z = space.Z;
   Eigen::VectorXd& w = space.w;
   Eigen::VectorXd h = Eigen::VectorXd::Zero(most + 1);

@@ -26,7 +26,7 @@ using ApplyTo = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& y)
 struct GmresOptions {
   double tolerance = 1e-3;  // ‖r − A x‖_M⁻¹ ≤ tolerance · ‖r‖_M⁻¹ …
   double enough = 0;        // … or ≤ this
-  int most_iterations = 20;
+  int max_iterations = 20;
   int threads = 1;  // for its vectors; sums do not depend on how many
 };
 

@@ -20,7 +20,7 @@ std::size_t iteration_bytes(const KrylovOptions& options, int count, Eigen::Inde
 void KrylovSummary::add(const KrylovSummary& other) {
   converged = converged && other.converged;
   iterations += other.iterations;
-  most_iterations = std::max(most_iterations, other.most_iterations);
+  max_iterations = std::max(max_iterations, other.max_iterations);
   residual = std::max(residual, other.residual);
   if (history.empty()) history = other.history;
 }
@@ -50,7 +50,7 @@ void Lanes::check_time(const Deadline& deadline, const char* solver, const LaneS
 KrylovOptions krylov_options(const RunControl& control, int lanes) {
   KrylovOptions options;
   options.tolerance = control.tolerance;
-  options.most_iterations = control.most_iterations.value_or(options.most_iterations);
+  options.max_iterations = control.max_iterations.value_or(options.max_iterations);
   options.lanes = lanes;
   options.threads = control.threads;
   return options;
@@ -65,7 +65,7 @@ void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovO
          summary.history});
   if (summary.converged) return;
   std::ostringstream message;
-  message << "relative residual " << summary.residual << " after " << summary.most_iterations
+  message << "relative residual " << summary.residual << " after " << summary.max_iterations
           << " iterations (tolerance " << options.tolerance << ")";
   stop_unconverged(solver, !std::isnan(summary.residual), message.str(), solution);
 }

@@ -30,10 +30,10 @@ struct RightHandSides {
 RightHandSides columns_of(Eigen::Ref<Eigen::MatrixXd> X);
 
 struct KrylovOptions {
-  double tolerance = 1e-10;      // ‖b − A x‖_M⁻¹ ≤ tolerance · ‖b‖_M⁻¹
-  int most_iterations = 200000;  // per right-hand side
-  int lanes = most_lanes;        // right-hand sides at once: 1 or most_lanes
-  int threads = 1;               // each with lanes of its own
+  double tolerance = 1e-10;     // ‖b − A x‖_M⁻¹ ≤ tolerance · ‖b‖_M⁻¹
+  int max_iterations = 200000;  // per right-hand side
+  int lanes = max_lanes;        // right-hand sides at once: 1 or max_lanes
+  int threads = 1;              // each with lanes of its own
 };
 
 // Of the vectors of a solve for `count` right-hand sides, with `rows` rows per lane, including
@@ -43,7 +43,7 @@ std::size_t iteration_bytes(const KrylovOptions& options, int count, Eigen::Inde
 struct KrylovSummary {
   bool converged = true;        // every right-hand side met the tolerance
   std::int64_t iterations = 0;  // of all right-hand sides together
-  int most_iterations = 0;      // of one of them
+  int max_iterations = 0;       // of one of them
   double residual = 0;          // largest relative one at the end, as the recurrence has it
   std::vector<double> history;  // relative residuals of the first right-hand side
   void add(const KrylovSummary& other);

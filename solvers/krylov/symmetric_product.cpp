@@ -25,7 +25,7 @@ void symmetric_product(const SparseColumns& lower, const double* x, double* y) {
 }
 
 template void symmetric_product<1>(const SparseColumns&, const double*, double*);
-template void symmetric_product<most_lanes>(const SparseColumns&, const double*, double*);
+template void symmetric_product<max_lanes>(const SparseColumns&, const double*, double*);
 
 void symmetric_product(const SparseColumns& lower, const LaneBlock& X, LaneBlock& Y) {
   Y.setZero();

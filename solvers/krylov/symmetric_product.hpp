@@ -8,7 +8,7 @@ namespace airybench {
 
 void symmetric_product(const SparseColumns& lower, const LaneBlock& X, LaneBlock& Y);
 
-// y += S x for lanes 1 and most_lanes; row-major.
+// y += S x for lanes 1 and max_lanes; row-major.
 template <int lanes>
 void symmetric_product(const SparseColumns& lower, const double* x, double* y);
 

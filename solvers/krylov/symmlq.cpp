@@ -82,7 +82,7 @@ KrylovSummary solve_range(const SymmetricOperator& A, const Preconditioner& prec
     x.col(l) += t[l].to_galerkin * w.col(l);
     sides.store(in[l], x.col(l));
     summary.iterations += t[l].step;
-    summary.most_iterations = std::max(summary.most_iterations, t[l].step);
+    summary.max_iterations = std::max(summary.max_iterations, t[l].step);
     summary.residual = std::max(summary.residual, t[l].residual);
     summary.converged = summary.converged && t[l].residual <= options.tolerance;
     begin_next(l);
@@ -127,7 +127,7 @@ KrylovSummary solve_range(const SymmetricOperator& A, const Preconditioner& prec
       if (in[l] == Lanes::none) continue;
       residual[l] = t[l].residual;
       if (in[l] == 0) summary.history.push_back(residual[l]);
-      if (residual[l] <= options.tolerance || t[l].step >= options.most_iterations) {
+      if (residual[l] <= options.tolerance || t[l].step >= options.max_iterations) {
         finish(l);        // the next one begins in the next round, with its own y
         on_older[l] = 1;  // keeps its right-hand side in both residual vectors
         continue;

@@ -82,11 +82,11 @@ Tuning tune_augmented_lagrangian(const AirySystem& system, const RunControl& con
           (best == nullptr || result.iterations < best->iterations))
         best = &tuning.grid.back();
     }
-    if (best != nullptr) options.most_iterations = best->iterations;  // more cannot win
+    if (best != nullptr) options.max_iterations = best->iterations;  // more cannot win
   }
   if (best == nullptr)
     throw Breakdown("no combination of the grid of r and rho converges within " +
-                    std::to_string(options.most_iterations) + " iterations");
+                    std::to_string(options.max_iterations) + " iterations");
   tuning.parameters = describe(best->r, best->rho);
   tuning.solve =
       on_airy_system([r = best->r, rho = best->rho](const AirySystem& s, const RunControl& c) {

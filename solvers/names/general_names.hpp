@@ -28,7 +28,7 @@ class GeneralName {
                      std::initializer_list<const char*> allowed);
   double positive(const std::string& key);
   int whole(const std::string& key, int otherwise, int least, int most);
-  int lanes() { return one_of("lanes", "16", {"1", "16"}) == "1" ? 1 : most_lanes; }
+  int lanes() { return one_of("lanes", "16", {"1", "16"}) == "1" ? 1 : max_lanes; }
   Refine refine() {
     return one_of("refine", "no", {"yes", "no"}) == "yes" ? Refine::yes : Refine::no;
   }

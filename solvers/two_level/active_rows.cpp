@@ -10,8 +10,8 @@ namespace {
 
 // GMRES keeps so much of its basis at most.
 int iterations_at_once(Eigen::Index rows) {
-  constexpr std::size_t most_bytes = 2'000'000'000;
-  const std::size_t vectors = most_bytes / (static_cast<std::size_t>(rows) * sizeof(double));
+  constexpr std::size_t max_bytes = 2'000'000'000;
+  const std::size_t vectors = max_bytes / (static_cast<std::size_t>(rows) * sizeof(double));
   return static_cast<int>(std::clamp(vectors, std::size_t{12}, std::size_t{40}));
 }
 
@@ -33,9 +33,9 @@ class RowsNewton {
 
  private:
   RowsResult iterate() {
-    constexpr int most_steps = 100;
+    constexpr int max_steps = 100;
     double target = 1e-2;
-    while (now_.steps < most_steps) {
+    while (now_.steps < max_steps) {
       hold_laws();
       solve_linear(target);
       if (choose_laws()) {
@@ -48,7 +48,7 @@ class RowsNewton {
       }
     }
     for (const auto count : {&RowsResult::steps, &RowsResult::sweeps}) best_.*count = now_.*count;
-    for (const auto count : {&RowsResult::iterations, &RowsResult::most_in_a_step})
+    for (const auto count : {&RowsResult::iterations, &RowsResult::max_in_a_step})
       best_.*count = now_.*count;
     best_.history = std::move(now_.history);
     return std::move(best_);
@@ -68,14 +68,14 @@ class RowsNewton {
 
   // Until the linear error is below the target, or no longer falls.
   void solve_linear(double target) {
-    constexpr int most_cycles = 50;
+    constexpr int max_cycles = 50;
     const std::int64_t before = now_.iterations;
-    for (int cycle = 0, idle = 0; cycle < most_cycles && idle < 2; ++cycle) {
+    for (int cycle = 0, idle = 0; cycle < max_cycles && idle < 2; ++cycle) {
       const double enough = target / rows_.condition * (size_ > 0 ? size_ : scale_);
       const GmresOptions options{1e-8, enough / 2, iterations_at_once(unbalanced_.size())};
       const GmresResult linear = rows_.solve(unbalanced_, options, correction_);
       now_.iterations += linear.iterations;
-      now_.most_in_a_step = std::max(now_.most_in_a_step, now_.iterations - before);
+      now_.max_in_a_step = std::max(now_.max_in_a_step, now_.iterations - before);
       now_.u += correction_;
       measure();
       const double left = rows_.error_left(linear, unbalanced_, target <= options_.tolerance);

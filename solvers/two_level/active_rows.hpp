@@ -61,7 +61,7 @@ struct RowsResult {
   double linear_error = 0;          // of u under its laws, relative in the energy norm, estimated
   int sweeps = 0, steps = 0;        // for the first laws; active sets
   std::int64_t iterations = 0;      // linear ones
-  std::int64_t most_in_a_step = 0;
+  std::int64_t max_in_a_step = 0;
   std::size_t bytes = 0;        // of the iteration's vectors
   std::vector<double> history;  // linear_error
 };

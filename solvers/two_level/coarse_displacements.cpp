@@ -201,7 +201,7 @@ void CoarseDisplacements::correct(const Eigen::VectorXd& r, Eigen::VectorXd& x) 
 
 CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
                                                    const Eigen::VectorXd& b) const {
-  constexpr int most_points = 700;
+  constexpr int max_points = 700;
   const int m = contact.components;
   CoarseContact coarse;
   ContactPoints& points = coarse.problem.points;
@@ -212,7 +212,7 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
       place[node] = static_cast<int>(met.size());
       met.push_back(node);
     }
-  const int in_group = 1 + (static_cast<int>(met.size()) - 1) / most_points;
+  const int in_group = 1 + (static_cast<int>(met.size()) - 1) / max_points;
   points.count = (static_cast<int>(met.size()) + in_group - 1) / in_group;
   for (const int node : node_of_point_)
     coarse.of_point.push_back(place[node] < 0 ? -1 : place[node] / in_group);

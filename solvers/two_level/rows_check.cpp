@@ -15,7 +15,7 @@ struct Correction {
 
 Correction solve_under(ContactRows& rows, const std::vector<PointLaw>& laws, Eigen::VectorXd load,
                        std::int64_t& iterations) {
-  const GmresOptions digits{.tolerance = 0.02, .most_iterations = 20};
+  const GmresOptions digits{.tolerance = 0.02, .max_iterations = 20};
   rows.set(laws);
   Correction correction;
   const GmresResult linear = rows.solve(std::move(load), digits, correction.x);

@@ -37,7 +37,7 @@ std::vector<PointLaw> SlotRows::first_laws(int& sweeps) {
   const Eigen::MatrixXd& D = coarse.problem.D;
   const ContactPoints& points = coarse.problem.points;
   if (points.count == 0) return laws;
-  const ContactOptions rough = {.tolerance = 1e-6, .most_iterations = 1000};
+  const ContactOptions rough = {.tolerance = 1e-6, .max_iterations = 1000};
   const ContactResult of_coarse = solve_contact_by_newton(coarse.problem, rough, deadline_);
   sweeps = of_coarse.iterations;
   const Eigen::VectorXd& F = of_coarse.F_C;

@@ -128,7 +128,7 @@ UzawaResult iterate_accelerated(const AirySystem& system, PenalisedFactor& penal
     // The paper's stop has no check that would judge what rounding leaves.
     const bool met =
         !lost && compared && residual <= (stalls && !paper ? at_rounding * enough : enough);
-    if (met || lost || stalls || result.iterations >= options.most_iterations) {
+    if (met || lost || stalls || result.iterations >= options.max_iterations) {
       result.outcome = met    ? UzawaOutcome::converged
                        : lost ? UzawaOutcome::diverged
                               : UzawaOutcome::too_many_iterations;

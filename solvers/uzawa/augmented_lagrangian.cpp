@@ -209,7 +209,7 @@ std::vector<UzawaResult> iterate_uzawa(const AirySystem& system, const Augmented
       // The first iteration has compared nothing yet: F_C and the multipliers were zero.
       const bool met_truly =
           met && !lost && (paper || result.iterations > 1 || result.primal_N == 0);
-      if (met_truly || lost || result.iterations >= options.most_iterations) {
+      if (met_truly || lost || result.iterations >= options.max_iterations) {
         result.outcome = met_truly ? UzawaOutcome::converged
                          : lost    ? UzawaOutcome::diverged
                                    : UzawaOutcome::too_many_iterations;
@@ -232,7 +232,7 @@ std::vector<UzawaResult> iterate_uzawa(const AirySystem& system, const Augmented
 
 bool solve_saddle(const AirySystem& system, const PenalisedSolve& penalised, SaddleVector& v,
                   const Deadline& deadline) {
-  constexpr int most_iterations = 500;
+  constexpr int max_iterations = 500;
   const int n_f = system.n_f(), n_c = system.n_c();
   const Eigen::VectorXd& R = penalised.R;
   const auto solve = [&](Eigen::VectorXd b) {
@@ -258,7 +258,7 @@ bool solve_saddle(const AirySystem& system, const PenalisedSolve& penalised, Sad
   double rz = residual.dot(z);
   const double enough = penalised.tolerance * penalised.tolerance * rz;
   bool met = rz == 0;
-  for (int k = 0; k < most_iterations && !met; ++k) {
+  for (int k = 0; k < max_iterations && !met; ++k) {
     deadline.check("the check of the answer");
     const Eigen::VectorXd product = C(solve(C_transposed(direction)));
     const double step = rz / direction.dot(product);
@@ -281,7 +281,7 @@ UzawaOptions uzawa_options(const RunControl& control) {
   UzawaOptions options;
   options.stop = control.stop;
   options.tolerance = control.tolerance;
-  options.most_iterations = control.most_iterations.value_or(options.most_iterations);
+  options.max_iterations = control.max_iterations.value_or(options.max_iterations);
   return options;
 }
 

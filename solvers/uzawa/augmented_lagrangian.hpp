@@ -47,7 +47,7 @@ AugmentedFactor factor_augmented(const AirySystem& system, double r, const Deadl
 struct UzawaOptions {
   Stop stop = Stop::target;
   double tolerance = 1e-8;  // of the stop `target`, as above
-  int most_iterations = 20000;
+  int max_iterations = 20000;
   static constexpr double paper_stop_N = 1e-3;
 };
 

@@ -171,7 +171,7 @@ TEST(GridLagrangian, SeveralStepsSideBySideAreEachAlone) {
   const AugmentedFactor augmented = factor_augmented(system, 20);
   UzawaOptions options;
   options.tolerance = 1e-6;
-  options.most_iterations = 400;
+  options.max_iterations = 400;
   const std::vector<double> rhos = {44, 20, 1, 30, 25, 300};
   const std::vector<UzawaResult> together = iterate_uzawa(system, augmented, rhos, options, false);
   ASSERT_EQ(together.size(), rhos.size());

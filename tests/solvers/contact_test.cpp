@@ -137,7 +137,7 @@ contact::Problem stiff_problem(int components) {
 TEST(ActiveSet, FinishesWhereSweepsAreSlow) {
   for (const int components : {1, 2}) {
     const contact::Problem problem = stiff_problem(components);
-    ContactResult result = solve_contact_by_gauss_seidel(problem, {.most_iterations = 300});
+    ContactResult result = solve_contact_by_gauss_seidel(problem, {.max_iterations = 300});
     ASSERT_FALSE(result.converged) << components;
     finish_by_active_set(problem, {}, {}, result);
     EXPECT_TRUE(result.converged) << components;
@@ -187,7 +187,7 @@ TEST(ContactSolvers, HaveTheSolutionOfTheSweeps) {
                                               {ContactSolver::anderson, 1000, 1e-9},
                                               {ContactSolver::admm, 1000, 1e-9}}) {
       const ContactResult result =
-          solve_contact(problem, {.solver = solver, .most_iterations = sweeps});
+          solve_contact(problem, {.solver = solver, .max_iterations = sweeps});
       EXPECT_TRUE(result.converged) << name_of(solver) << components;
       EXPECT_LT(testing::distance(result.F_C, F), off * F.norm()) << name_of(solver) << components;
     }
@@ -204,7 +204,7 @@ TEST(ContactSolvers, TooFewIterationsOrNaNIsNotConverged) {
     const ContactResult of_nan = solve_contact(poisoned, options);
     EXPECT_FALSE(of_nan.converged) << name_of(solver);
     EXPECT_EQ(of_nan.F_C.size(), problem.points.size()) << name_of(solver);
-    options.most_iterations = 0;
+    options.max_iterations = 0;
     EXPECT_FALSE(solve_contact(poisoned, options).converged) << name_of(solver);
     options = {.solver = solver, .tolerance = -1};
     EXPECT_THROW(solve_contact(problem, options, Deadline::after(-1)), TimeoutReached)

@@ -184,7 +184,7 @@ TEST(Skyline, TakesRegularLeadingBlocksThatAreIndefiniteAndLeadingZerosOfTheRigh
 TEST(Skyline, RefusesImpossiblePanelSizesAndNamesAPivot) {
   SparseColumns S = lower_of(Eigen::MatrixXd::Identity(5, 5));
   EXPECT_THROW(analyse_skyline(S, 0), std::invalid_argument);
-  EXPECT_THROW(analyse_skyline(S, most_panel_rows + 1), std::invalid_argument);
+  EXPECT_THROW(analyse_skyline(S, max_panel_rows + 1), std::invalid_argument);
   S.coeffRef(2, 2) = std::nan("");
   EXPECT_EQ(testing::complaint_of<Breakdown>([&] { factor_ldlt(analyse_skyline(S, 2), S); }),
             "skyline LDLT: pivot 3 is nan");

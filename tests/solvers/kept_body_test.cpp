@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // ALM:AUTO keeps its factor, HYBRID:CG both levels: the iterations are every load case's own.
 TEST_P(KeptBody, SolvesOtherLoadCasesAsIfTheyWereAlone) {
-  const double most_off = GetParam().is_iterative() ? 1e-6 : 1e-9;
+  const double max_off = GetParam().is_iterative() ? 1e-6 : 1e-9;
   for (const bool has_friction : {true, false}) {
     const auto with_friction = [&](Scene scene) {
       if (!has_friction) scene.friction = 0;
@@ -70,9 +70,9 @@ TEST_P(KeptBody, SolvesOtherLoadCasesAsIfTheyWereAlone) {
       const Solution again = run(first.solve_again, *system, {});
       const Solution alone = run(GetParam(), *assembled(with_friction(scene)), {});
       ASSERT_EQ(again.status, Status::ok) << name << ": " << again.message;
-      EXPECT_LT(testing::distance(again.F_C, alone.F_C), most_off / 10 * alone.F_C.norm()) << name;
-      EXPECT_LT(stress_distance(*system->problem, again.stress, alone.stress), most_off) << name;
-      EXPECT_LT(again.error_estimate.value(), 10 * most_off) << name;
+      EXPECT_LT(testing::distance(again.F_C, alone.F_C), max_off / 10 * alone.F_C.norm()) << name;
+      EXPECT_LT(stress_distance(*system->problem, again.stress, alone.stress), max_off) << name;
+      EXPECT_LT(again.error_estimate.value(), 10 * max_off) << name;
       EXPECT_EQ(again.linear_iterations, alone.linear_iterations) << name;
       for (const Stage stage : {Stage::precondition, Stage::order, Stage::factor, Stage::condense})
         EXPECT_FALSE(again.times[stage]) << name << ": " << name_of(stage);

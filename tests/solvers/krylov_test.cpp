@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, Krylov,
 TEST_P(Krylov, SolvesWithAndWithoutAPreconditioner) {
   for (const int n : {1, 2, 3, 7, 40})
     for (const int negative : {0, n / 2, n})
-      for (const int lanes : {1, most_lanes}) {
+      for (const int lanes : {1, max_lanes}) {
         if (negative > 0 && !GetParam().indefinite) continue;
         const Spectral A(random_spectrum(n, negative, generator), generator);
         const Spectral M(random_spectrum(n, 0, generator), generator);
@@ -99,10 +99,10 @@ TEST_P(Krylov, ItsResidualIsTheTrueOneAfterAnyNumberOfIterations) {
   for (int k = 0; k <= (GetParam().indefinite ? 20 : 12); ++k) {
     Eigen::MatrixXd X = b;
     KrylovOptions options = with(1e-14);
-    options.most_iterations = k;
+    options.max_iterations = k;
     const KrylovSummary summary = solve(A.matrix(), preconditioner_of(M.inverse()), X, options);
     EXPECT_FALSE(summary.converged);
-    EXPECT_EQ(summary.most_iterations, k);
+    EXPECT_EQ(summary.max_iterations, k);
     EXPECT_NEAR(summary.residual, norms(M.inverse(), b - A.matrix() * X)(0) / start,
                 GetParam().follow)
         << k;
@@ -118,8 +118,8 @@ TEST_P(Krylov, TheAbsoluteValueOfTheMatrixIsPreconditionerForAnIterationPerSign)
   Eigen::MatrixXd X = B;
   const KrylovSummary summary =
       solve(A.matrix(), preconditioner_of(A.absolute_inverse()), X, with(1e-10));
-  EXPECT_EQ(summary.most_iterations, GetParam().indefinite ? 2 : 1);
-  EXPECT_EQ(summary.iterations, 4 * summary.most_iterations);
+  EXPECT_EQ(summary.max_iterations, GetParam().indefinite ? 2 : 1);
+  EXPECT_EQ(summary.iterations, 4 * summary.max_iterations);
   EXPECT_LT(testing::distance(X, A.inverse() * B), 1e-9 * X.norm());
 }
 
@@ -156,18 +156,18 @@ TEST_P(Krylov, LanesAndThreadsAndNeighboursChangeNothing) {
       const KrylovSummary one = solve(A, preconditioner, X, with(1e-7));
       alone.col(k) = X;
       sum.iterations += one.iterations;
-      sum.most_iterations = std::max(sum.most_iterations, one.most_iterations);
+      sum.max_iterations = std::max(sum.max_iterations, one.max_iterations);
       if (k == 0) sum.history = one.history;
     }
-    EXPECT_LT(sum.most_iterations, n);
-    for (const int lanes : {1, most_lanes})
+    EXPECT_LT(sum.max_iterations, n);
+    for (const int lanes : {1, max_lanes})
       for (const int threads : {1, 2, 5}) {
         SCOPED_TRACE(::testing::Message() << lanes << " lanes, " << threads << " threads");
         Eigen::MatrixXd X = B;
         const KrylovSummary summary = solve(A, preconditioner, X, with(1e-7, lanes, threads));
         EXPECT_TRUE(summary.converged);
         EXPECT_EQ(summary.iterations, sum.iterations);
-        EXPECT_EQ(summary.most_iterations, sum.most_iterations);
+        EXPECT_EQ(summary.max_iterations, sum.max_iterations);
         EXPECT_EQ(summary.history.size(), sum.history.size());
         EXPECT_LT((X - alone).norm(), 1e-11 * alone.norm());
       }
@@ -181,7 +181,7 @@ TEST_P(Krylov, APreconditionerThatIsNotPositiveDefiniteIsABreakdown) {
   for (const Eigen::MatrixXd& inverse :
        {Eigen::MatrixXd(-Eigen::MatrixXd::Identity(10, 10)), Eigen::MatrixXd(diagonal.asDiagonal()),
         Spectral(random_spectrum(10, 5, generator), generator).matrix()})
-    for (const int lanes : {1, most_lanes}) {
+    for (const int lanes : {1, max_lanes}) {
       Eigen::MatrixXd X = random_matrix(10, 20, generator);
       EXPECT_THROW(solve(A, preconditioner_of(inverse), X, with(1e-10, lanes)), Breakdown);
     }
@@ -190,7 +190,7 @@ TEST_P(Krylov, APreconditionerThatIsNotPositiveDefiniteIsABreakdown) {
 TEST_P(Krylov, WhatIsNotFiniteIsABreakdown) {
   const Eigen::MatrixXd A = random_spectral(10).matrix();
   for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()})
-    for (const int lanes : {1, most_lanes}) {
+    for (const int lanes : {1, max_lanes}) {
       Eigen::MatrixXd X = random_matrix(10, 3, generator), bad = A;
       bad(2, 2) = poison;
       EXPECT_THROW(solve(bad, no_preconditioner(), X, with(1e-10, lanes)), Breakdown);
@@ -207,7 +207,7 @@ TEST_P(Krylov, OutOfTimeTellsHowFarItGot) {
   for (const int threads : {1, 2}) {
     Eigen::MatrixXd X = random_matrix(40, 60, generator);
     try {
-      solve(A, no_preconditioner(), X, with(1e-10, most_lanes, threads), Deadline::after(-1));
+      solve(A, no_preconditioner(), X, with(1e-10, max_lanes, threads), Deadline::after(-1));
       FAIL() << "it went on";
     } catch (const TimeoutReached& timeout) {
       EXPECT_GE(timeout.done_fraction.value(), 0);
@@ -226,7 +226,7 @@ TEST(Symmlq, FindsTheShortestSolutionOfASingularSystemThatHasSome) {
     eigenvalues.segment(5, zeros).setZero();
     const Spectral A(eigenvalues, generator);
     const Eigen::MatrixXd B = A.matrix() * random_matrix(20, 20, generator);
-    for (const int lanes : {1, most_lanes}) {
+    for (const int lanes : {1, max_lanes}) {
       Eigen::MatrixXd X = B;
       EXPECT_TRUE(symmlq(A.matrix(), no_preconditioner(), X, with(1e-11, lanes)).converged);
       EXPECT_LT(testing::residual(A.matrix(), X, B), 1e-10 * B.norm());
@@ -266,7 +266,7 @@ TEST(ConjugateGradients, ReadsTheLowerTriangleOfASparseMatrixOnly) {
     if (i + 1 < n) lower.insert(i + 1, i) = S(i + 1, i) = S(i, i + 1) = -1 - 0.1 * (i % 3);
   }
   lower.makeCompressed();
-  for (const int lanes : {1, most_lanes}) {
+  for (const int lanes : {1, max_lanes}) {
     const Eigen::MatrixXd B = Eigen::MatrixXd::Identity(n, n);
     Eigen::MatrixXd X = B;
     solve_by_conjugate_gradients(lower, no_preconditioner(), columns_of(X), with(1e-14, lanes));
@@ -285,7 +285,7 @@ TEST(ConjugateGradients, TheErrorInTheEnergyNormFallsInEveryIteration) {
   for (int k = 0; k <= 30; ++k) {
     Eigen::MatrixXd X = b;
     KrylovOptions options = with(1e-14);
-    options.most_iterations = k;
+    options.max_iterations = k;
     conjugate_gradients(S.matrix(), no_preconditioner(), X, options);
     const double error = norms(S.matrix(), X - exact)(0);
     EXPECT_LT(error, before) << k;
@@ -297,7 +297,7 @@ TEST(ConjugateGradients, AMatrixThatIsNotPositiveDefiniteIsABreakdown) {
   std::mt19937 generator(8);
   for (const Eigen::MatrixXd& S : {Spectral(random_spectrum(10, 5, generator), generator).matrix(),
                                    Eigen::MatrixXd(Eigen::MatrixXd::Zero(10, 10))})
-    for (const int lanes : {1, most_lanes}) {
+    for (const int lanes : {1, max_lanes}) {
       Eigen::MatrixXd X = random_matrix(10, 20, generator);
       EXPECT_THROW(conjugate_gradients(S, no_preconditioner(), X, with(1e-10, lanes)), Breakdown);
     }
@@ -307,7 +307,7 @@ TEST(ConjugateGradients, TheDoneFractionCountsFinishedRightHandSidesAndDigits) {
   // Zero right-hand sides are done at once, the others are not: S is far from the identity.
   const int n = 100;
   const Eigen::MatrixXd S = Eigen::VectorXd::LinSpaced(n, 1e-6, 1).asDiagonal();
-  for (const auto& [lanes, least, most] : {std::tuple(1, 0.0, 0.2), {most_lanes, 0.8, 1.0}}) {
+  for (const auto& [lanes, least, most] : {std::tuple(1, 0.0, 0.2), {max_lanes, 0.8, 1.0}}) {
     Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n, 10);
     X.rightCols(2).setOnes();
     try {

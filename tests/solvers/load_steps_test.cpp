@@ -270,7 +270,7 @@ TEST(LoadStepsOf, ASlipOfAHigherDegreeIsRefused) {
 TEST(LoadStepsOf, AMethodThatFailsEndsThePath) {
   int steps = 0;
   RunControl control;
-  control.most_iterations = 2;
+  control.max_iterations = 2;
   const Solution last =
       solve_load_steps(select_methods("ALM:r=20,rho=44").front(), path({{0.02, 0}, {0.02, 0.006}}),
                        control, [&](int, const ContactSystem&, const Solution&) { ++steps; });

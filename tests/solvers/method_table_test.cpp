@@ -103,7 +103,7 @@ TEST(Methods, APreconditionerHasOneSpelling) {
 
 TEST(Methods, TooFewIterationsAreNotConvergedWithTheirNumber) {
   RunControl control;
-  control.most_iterations = 3;
+  control.max_iterations = 3;
   for (const char* method : {"ALM:AUTO", "3STEPCG:DTIC4", "SYMMLQ:DTIC6"}) {
     const Solution solution = testing::solved_by(method, testing::system_of(), control);
     EXPECT_EQ(solution.status, Status::not_converged) << method;

@@ -150,7 +150,7 @@ TEST_P(EveryKindOfMethod, TooFewSweepsIsNotConverged) {
   if (GetParam().name.starts_with("ALM") || GetParam().name == "HYBRID:CG")
     GTEST_SKIP() << "it makes no sweeps";
   RunControl control;
-  control.contact = {.solver = ContactSolver::gauss_seidel, .most_iterations = 1};
+  control.contact = {.solver = ContactSolver::gauss_seidel, .max_iterations = 1};
   const Solution solution = solve(posed({}), control);
   EXPECT_EQ(solution.status, Status::not_converged);
   EXPECT_NE(solution.message.find("natural map residual"), std::string::npos);

@@ -213,7 +213,7 @@ TEST(Ssor, IsTheInverseOfItsFormula) {
       const Eigen::MatrixXd M =
           DL * A.diagonal().cwiseInverse().asDiagonal() * DL.transpose() / (omega * (2 - omega));
       const Preconditioner made = ssor_preconditioner(lower, omega);
-      for (const int lanes : {1, most_lanes}) {
+      for (const int lanes : {1, max_lanes}) {
         const Eigen::MatrixXd product = M * matrix_of(made, A.rows(), lanes);
         EXPECT_LT(distance(product, Eigen::MatrixXd::Identity(A.rows(), A.rows())), 1e-9) << omega;
       }
@@ -230,7 +230,7 @@ TEST_P(EveryPreconditioner, IsSymmetricPositiveDefiniteAndTheSameOnAnyNumberOfLa
     const Eigen::MatrixXd inverse = matrix_of(made, S.rows(), 1);
     EXPECT_LT(distance(inverse, inverse.transpose()), 1e-12 * inverse.norm());
     EXPECT_GT(eigenvalues(inverse)(0), 0);
-    EXPECT_LT(distance(inverse, matrix_of(made, S.rows(), most_lanes)), 1e-13 * inverse.norm());
+    EXPECT_LT(distance(inverse, matrix_of(made, S.rows(), max_lanes)), 1e-13 * inverse.norm());
   }
 }
 
@@ -238,8 +238,8 @@ TEST_P(EveryPreconditioner, LeavesTheCallersMatrixAndItsOwnFactorAlone) {
   const SparseColumns S = random_sparse(100, 9);
   const Preconditioner made = preconditioner_named(GetParam())(S, {});
   EXPECT_EQ(whole(S), whole(random_sparse(100, 9)));
-  const Apply one = made.applier(1), other = made.applier(most_lanes);
-  LaneBlock x = LaneBlock::Ones(100, 1), y = LaneBlock::Ones(100, most_lanes), z = x;
+  const Apply one = made.applier(1), other = made.applier(max_lanes);
+  LaneBlock x = LaneBlock::Ones(100, 1), y = LaneBlock::Ones(100, max_lanes), z = x;
   one(x);
   other(y);
   one(z);
@@ -261,9 +261,9 @@ TEST(Preconditioners, SkyIsTheInverseAndNoneTheIdentity) {
   const Eigen::Index n = 300;
   const SparseColumns S = random_sparse(n, 10);
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
-  EXPECT_LT(residual(whole(S), matrix_of(preconditioner_named("SKY")(S, {}), n, most_lanes), I),
+  EXPECT_LT(residual(whole(S), matrix_of(preconditioner_named("SKY")(S, {}), n, max_lanes), I),
             1e-12);
-  EXPECT_EQ(matrix_of(preconditioner_named("NONE")(S, {}), n, most_lanes), I);
+  EXPECT_EQ(matrix_of(preconditioner_named("NONE")(S, {}), n, max_lanes), I);
 }
 
 TEST(Preconditioners, ADiagonalThatIsNotPositiveIsABreakdown) {
@@ -280,7 +280,7 @@ TEST(Preconditioners, MoreOfTheFactorIsABetterPreconditioner) {
   const auto condition = [&](const char* name) {
     const Eigen::MatrixXd L = cholesky(tooth());
     const Eigen::MatrixXd inverse =
-        matrix_of(preconditioner_named(name)(tooth(), {}), S.rows(), most_lanes);
+        matrix_of(preconditioner_named(name)(tooth(), {}), S.rows(), max_lanes);
     const Eigen::MatrixXd similar = L.transpose() * inverse * L;
     const Eigen::VectorXd values = eigenvalues(similar);
     return values(values.size() - 1) / values(0);

@@ -122,7 +122,7 @@ class KernelsOnARack : public ::testing::TestWithParam<PreconditionerOnMesh> {
   }
   // How many right-hand sides: one for the preconditioners that need thousands of iterations.
   static int sides() {
-    return preconditioner().starts_with("SSOR") || preconditioner() == "NONE" ? 1 : most_lanes;
+    return preconditioner().starts_with("SSOR") || preconditioner() == "NONE" ? 1 : max_lanes;
   }
   // Rows of [C_F; C_C] as right-hand sides, evenly chosen.
   static Eigen::MatrixXd loads() {
@@ -165,8 +165,7 @@ TEST_P(KernelsOnARack, ConjugateGradientsHaveTheDirectAnswer) {
 
 TEST_P(KernelsOnARack, SymmlqHasTheDirectAnswer) {
   const Preconditioner S_star = preconditioner_named(preconditioner())(system().S, {});
-  const Preconditioner M =
-      saddle_preconditioner(system(), S_star, SchurBlock::dense, most_lanes, 1);
+  const Preconditioner M = saddle_preconditioner(system(), S_star, SchurBlock::dense, max_lanes, 1);
   const int n = system().n(), n_f = system().n_f(), n_c = system().n_c();
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n + n_f + n_c, sides()), D(n_c, sides());
   for (int l = 0; l < sides(); ++l) {

@@ -107,7 +107,7 @@ TEST(SaddleOperator, IsTheWholeMatrix) {
   const AirySystem system = loaded_system();
   const SymmetricOperator A = saddle_operator(system);
   std::mt19937 generator(12);
-  for (const int lanes : {1, most_lanes}) {
+  for (const int lanes : {1, max_lanes}) {
     const LaneBlock X = random_matrix(A.n, lanes, generator);
     LaneBlock Y(A.n, lanes);
     A.multiply(X, Y);
@@ -130,9 +130,9 @@ TEST(SaddlePreconditioner, BlocksAreTheInversesOfTheirDefinition) {
     X.col(k) = S_star_C;
   }
   for (const SchurBlock schur : {SchurBlock::dense, SchurBlock::sparse})
-    for (const int build_lanes : {1, most_lanes})
+    for (const int build_lanes : {1, max_lanes})
       for (const int threads : {1, 2})
-        for (const int lanes : {1, most_lanes}) {
+        for (const int lanes : {1, max_lanes}) {
           const Preconditioner M =
               saddle_preconditioner(system, S_star, schur, build_lanes, threads);
           const Eigen::MatrixXd block =
@@ -152,14 +152,14 @@ TEST(SaddlePreconditioner, BlocksAreTheInversesOfTheirDefinition) {
 TEST(SaddlePreconditioner, ExactBlocksLeaveThreeEigenvaluesAndThreeIterations) {
   const AirySystem system = loaded_system();
   const Preconditioner exact = preconditioner_named("SKY")(system.S, {});
-  const Preconditioner M = saddle_preconditioner(system, exact, SchurBlock::dense, most_lanes, 1);
+  const Preconditioner M = saddle_preconditioner(system, exact, SchurBlock::dense, max_lanes, 1);
   std::mt19937 generator(14);
   const Eigen::MatrixXd B = random_matrix(system.n() + system.n_f() + system.n_c(), 20, generator);
   Eigen::MatrixXd X = B;
   const KrylovSummary summary =
-      solve_by_symmlq(saddle_operator(system), M, columns_of(X), with(1e-8, most_lanes));
+      solve_by_symmlq(saddle_operator(system), M, columns_of(X), with(1e-8, max_lanes));
   EXPECT_TRUE(summary.converged);
-  EXPECT_EQ(summary.most_iterations, 3);
+  EXPECT_EQ(summary.max_iterations, 3);
   EXPECT_LT(residual(saddle_matrix(system), X, B), 1e-6 * B.norm());
 }
 

@@ -160,7 +160,7 @@ TEST(ContactInSpace, WhatConvergesMeetsTheLaw) {
                      ", seed: " + std::to_string(seed));
         ContactOptions options;
         options.solver = solver;
-        options.most_iterations = 3000;
+        options.max_iterations = 3000;
         const ContactResult result = solve_contact(problem, options);
         if (!result.converged) continue;
         ++solved[solver];

@@ -32,7 +32,7 @@ contact::Problem dense(contact::Problem problem) {
 contact::Problem dense(const Packing& of) { return dense(of.problem()); }
 
 ContactResult iterated(const contact::Problem& problem, ContactSolver solver, int times) {
-  return solve_contact(problem, {.solver = solver, .most_iterations = times});
+  return solve_contact(problem, {.solver = solver, .max_iterations = times});
 }
 
 class PackingTest : public ::testing::TestWithParam<std::tuple<Packed, int>> {

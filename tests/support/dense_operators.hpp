@@ -81,7 +81,7 @@ inline KrylovOptions with(double tolerance, int lanes = 1, int threads = 1) {
   options.tolerance = tolerance;
   options.lanes = lanes;
   options.threads = threads;
-  options.most_iterations = 500;
+  options.max_iterations = 500;
   return options;
 }
 

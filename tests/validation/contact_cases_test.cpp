@@ -44,7 +44,7 @@ struct Face {
         scene, read_msh(testing::test_data(std::string("validation/") + mesh + ".msh")));
     system = contact_system(problem);
     RunControl control;
-    control.contact.most_iterations = 50;  // then active sets
+    control.contact.max_iterations = 50;  // then active sets
     Solution solution;
     const contact::Problem condensed = testing::condensed(*problem, system.contact);
     solve_condensed_contact(condensed, control, solution);

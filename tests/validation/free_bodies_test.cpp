@@ -329,7 +329,7 @@ TEST(FreeBodies, OnlyASolvedContactLawTellsThatNothingHolds) {
   };
   ContactOptions one_sweep;
   one_sweep.solver = ContactSolver::gauss_seidel;
-  one_sweep.most_iterations = 1;
+  one_sweep.max_iterations = 1;
   const Solution early = solved(0, one_sweep);
   EXPECT_EQ(early.status, Status::not_converged) << early.message;
   for (const auto& [along, left] : {std::pair(1e-7, "1.2e-06"), {1e-2, "0.12"}}) {

@@ -87,7 +87,7 @@ TEST(Allocations, NoneInsideAContactSweep) {
     const contact::Problem problem = condensed(40, contact);
     const auto allocations = [&](int sweeps) {
       // Its tolerance is never met: all sweeps are made.
-      const ContactOptions options = {.tolerance = 0, .most_iterations = sweeps};
+      const ContactOptions options = {.tolerance = 0, .max_iterations = sweeps};
       return allocations_of(
           [&] { EXPECT_EQ(solve_contact_by_gauss_seidel(problem, options).iterations, sweeps); });
     };
@@ -119,7 +119,7 @@ class PreconditionerAllocations : public ::testing::TestWithParam<std::string> {
                    }});
     for (const SchurBlock schur : {SchurBlock::dense, SchurBlock::sparse}) {
       const SymmetricOperator A = saddle_operator(system);
-      const Preconditioner M = saddle_preconditioner(system, S_star, schur, most_lanes, 1);
+      const Preconditioner M = saddle_preconditioner(system, S_star, schur, max_lanes, 1);
       all.push_back({schur == SchurBlock::dense ? "SYMMLQ" : "SYMMLQ, sparse", A.n, M,
                      [A, M](const auto& sides, const auto& options) {
                        return solve_by_symmlq(A, M, sides, options);
@@ -129,7 +129,7 @@ class PreconditionerAllocations : public ::testing::TestWithParam<std::string> {
   }
   // On some processors OpenBLAS allocates a buffer in every small matrix product; SKY makes up to
   // four for every panel.
-  static std::int64_t most_of_blas() {
+  static std::int64_t max_of_blas() {
     return GetParam() == "SKY" ? 4 * std::ssize(analyse_skyline(tooth().S).panels) : 0;
   }
 };
@@ -142,32 +142,32 @@ INSTANTIATE_TEST_SUITE_P(Names, PreconditionerAllocations,
 
 TEST_P(PreconditionerAllocations, NoneInsideAnApplication) {
   for (const Kernel& kernel : kernels())
-    for (const int lanes : {1, most_lanes}) {
+    for (const int lanes : {1, max_lanes}) {
       const Apply apply = kernel.preconditioner.applier(lanes);
       LaneBlock X = LaneBlock::Ones(kernel.n, lanes);
       apply(X);  // BLAS may make its buffers
       const auto five_times = [&] {
         for (int k = 0; k < 5; ++k) apply(X);
       };
-      EXPECT_LE(allocations_of(five_times), lanes == 1 ? 0 : 5 * most_of_blas())
+      EXPECT_LE(allocations_of(five_times), lanes == 1 ? 0 : 5 * max_of_blas())
           << kernel.name << ", " << lanes << " lanes";
     }
 }
 
 TEST_P(PreconditionerAllocations, NoneInsideAnIteration) {
   for (const Kernel& kernel : kernels())
-    for (const int lanes : {1, most_lanes}) {
+    for (const int lanes : {1, max_lanes}) {
       const auto allocations = [&](int iterations) {
         Eigen::MatrixXd X = Eigen::MatrixXd::Identity(kernel.n, 20);
         KrylovOptions options;
         options.tolerance = 1e-200;  // never met: all iterations are made
-        options.most_iterations = iterations;
+        options.max_iterations = iterations;
         options.lanes = lanes;
         const RightHandSides sides = columns_of(X);
         return allocations_of(
             [&] { EXPECT_EQ(kernel.solve(sides, options).iterations, 20 * iterations); });
       };
-      if (lanes > 1 && most_of_blas() > 0) continue;
+      if (lanes > 1 && max_of_blas() > 0) continue;
       allocations(1);
       EXPECT_EQ(allocations(2), allocations(12)) << kernel.name << ", " << lanes << " lanes";
     }
@@ -178,7 +178,7 @@ TEST(Allocations, NoneInsideAnUzawaIteration) {
   const auto allocations = [&](int iterations) {
     UzawaOptions options;
     options.tolerance = 0;
-    options.most_iterations = iterations;
+    options.max_iterations = iterations;
     return allocations_of([&] {
       for (const UzawaResult& result : iterate_uzawa(tooth(), augmented, {20}, options, true))
         EXPECT_EQ(result.iterations, iterations);
@@ -196,7 +196,7 @@ TEST(Allocations, NoneOfTheSystemsSizeInAnAcceleratedIteration) {
   const auto allocated = [&](int iterations) {
     UzawaOptions options;
     options.tolerance = 0;
-    options.most_iterations = iterations;
+    options.max_iterations = iterations;
     const std::int64_t before = heap::allocated_bytes();
     EXPECT_EQ(iterate_accelerated(tooth(), penalised, options).iterations, iterations);
     return heap::allocated_bytes() - before;

@@ -166,9 +166,9 @@ TEST(StepFields, OfALongPathAHundredStepsHaveTheWholeBody) {
       farthest = std::max(farthest, apart);
       apart = 0;
     }
-    EXPECT_EQ(kept, std::min(count, most_step_bodies)) << count;
+    EXPECT_EQ(kept, std::min(count, max_step_bodies)) << count;
     EXPECT_TRUE(keeps_body(count - 1, count)) << count;
-    EXPECT_LE(farthest, (count + most_step_bodies - 1) / most_step_bodies) << count;
+    EXPECT_LE(farthest, (count + max_step_bodies - 1) / max_step_bodies) << count;
   }
 }
 

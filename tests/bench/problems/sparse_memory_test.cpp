@@ -24,19 +24,18 @@ TEST_P(SparseMemory, IsTenTimesTheFileAtMost) {
   const auto [shape, components, contacts] = GetParam();
   const contact::Problem problem = testing::packing(shape, components, contacts, 1).problem();
   const auto file_bytes = 12 * problem.rows.nonZeros() + 8 * problem.G.size();
-  const auto most_of = [&](const std::function<void()>& work) {
+  const auto max_of = [&](const std::function<void()>& work) {
     const std::int64_t before = heap::live_bytes();
     heap::reset_peak();
     work();
     return heap::peak_bytes() - before + static_cast<std::int64_t>(problem.bytes());
   };
   Eigen::VectorXd F;
-  EXPECT_LT(
-      most_of([&] { F = solve_contact_by_gauss_seidel(problem, {.most_iterations = 3}).F_C; }),
-      2 * file_bytes);
-  EXPECT_LT(most_of([&] { active_set_step(problem, F, problem.rows * F - problem.G); }),
+  EXPECT_LT(max_of([&] { F = solve_contact_by_gauss_seidel(problem, {.max_iterations = 3}).F_C; }),
+            2 * file_bytes);
+  EXPECT_LT(max_of([&] { active_set_step(problem, F, problem.rows * F - problem.G); }),
             10 * file_bytes);
-  EXPECT_LT(most_of([&] { solve_contact_by_admm(problem, {.most_iterations = 3}); }),
+  EXPECT_LT(max_of([&] { solve_contact_by_admm(problem, {.max_iterations = 3}); }),
             10 * file_bytes);
 }
 
@@ -73,7 +72,7 @@ TEST(SparseAllocations, NoneInsideASweep) {
         testing::packing(Packed::periodic_box, components, 200, 1).problem();
     const auto allocations = [&](int sweeps) {
       const std::int64_t before = heap::allocations();
-      solve_contact_by_gauss_seidel(problem, {.tolerance = 0, .most_iterations = sweeps});
+      solve_contact_by_gauss_seidel(problem, {.tolerance = 0, .max_iterations = sweeps});
       return heap::allocations() - before;
     };
     EXPECT_EQ(allocations(3), allocations(30)) << components;

@@ -37,7 +37,7 @@ Context context() {
 TEST(ManyRecords, TakeTwoKilobytesEachAtMost) {
   if (!heap::is_active()) return;  // sanitizers count for themselves
   constexpr int before = 9'900, added = 100;
-  constexpr std::int64_t most_bytes_each = 2000;
+  constexpr std::int64_t max_bytes_each = 2000;
   const testing::TemporaryFolder scratch;
   const std::filesystem::path folder = scratch / "o";
   std::filesystem::create_directory(folder);
@@ -66,7 +66,7 @@ TEST(ManyRecords, TakeTwoKilobytesEachAtMost) {
   EXPECT_GT(table.text().size(), 50u * (before + added));
   EXPECT_EQ(early.count(), 0);
   const std::int64_t bytes_each = (heap::peak_bytes() - at_start) / (before + added);
-  EXPECT_LT(bytes_each, most_bytes_each);
+  EXPECT_LT(bytes_each, max_bytes_each);
   std::cout << bytes_each << " bytes per record\n";
 }
 

@@ -255,7 +255,7 @@ TEST(PastRecords, TheCommittedOnesAreThoseThatTellOfTheCases) {
 
 // Each mesh from the smaller ones, as when a series of runs goes up in size.
 TEST(PastRecords, DirectMethodsArePredictedFromSmallerMeshes) {
-  for (const auto& [folder, least_predicted] : {std::pair("paper", 18), std::pair("direct", 24)}) {
+  for (const auto& [folder, min_predicted] : {std::pair("paper", 18), std::pair("direct", 24)}) {
     const PastRecords past = read_past_records({testing::results_folder() / folder});
     ASSERT_TRUE(past.passed_over.empty()) << past.passed_over.front();
     int predicted = 0, within = 0;
@@ -278,7 +278,7 @@ TEST(PastRecords, DirectMethodsArePredictedFromSmallerMeshes) {
       ++predicted;
       within += p.time_s->low <= *held_out.time_s && *held_out.time_s <= p.time_s->high;
     }
-    EXPECT_GE(predicted, least_predicted) << folder;
+    EXPECT_GE(predicted, min_predicted) << folder;
     EXPECT_GE(within, 0.9 * predicted) << folder;
   }
 }

@@ -159,9 +159,9 @@ TEST(MannWhitney, AgreesWithAnotherImplementation) {
 }
 
 TEST(MannWhitney, HowManyValuesALevelNeeds) {
-  EXPECT_DOUBLE_EQ(least_mann_whitney_p(5, 5), 2.0 / 252);
-  EXPECT_DOUBLE_EQ(least_mann_whitney_p(1, 1), 1);
-  EXPECT_DOUBLE_EQ(least_mann_whitney_p(0, 3), 1);
+  EXPECT_DOUBLE_EQ(min_mann_whitney_p(5, 5), 2.0 / 252);
+  EXPECT_DOUBLE_EQ(min_mann_whitney_p(1, 1), 1);
+  EXPECT_DOUBLE_EQ(min_mann_whitney_p(0, 3), 1);
   EXPECT_EQ(values_needed_for(0.05), 4u);
   EXPECT_EQ(values_needed_for(0.05 / 24), 7u);
   EXPECT_EQ(values_needed_for(1), 1u);

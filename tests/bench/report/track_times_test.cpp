@@ -227,23 +227,23 @@ struct Slowdown {
   int nights;                         // before it
   int histories;
   unsigned seed;
-  double least_found;  // share of the histories
+  double min_found;  // share of the histories
 };
 class SlowdownSimulation : public ::testing::TestWithParam<Slowdown> {};
 
 TEST_P(SlowdownSimulation, IsFoundWithinFiveNights) {
   using boost::math::binomial;
-  constexpr int least_nights = static_cast<int>(TimeRules{}.least_after);
-  const auto& [what, series, nights, all_histories, seed, least_found] = GetParam();
+  constexpr int min_nights = static_cast<int>(TimeRules{}.min_after);
+  const auto& [what, series, nights, all_histories, seed, min_found] = GetParam();
   const int histories = all_histories / part;
   int found_in_time = 0;
   for (int h = 0; h < histories; ++h) {
     SyntheticHistory history(seed + h);
     history.add_nights(nights);
     history.slow_down(series, 1.1);
-    history.add_nights(least_nights - 1);  // too few to confirm anything
+    history.add_nights(min_nights - 1);  // too few to confirm anything
     bool found = false;
-    for (int t = least_nights; t <= 5 && !found; ++t) {
+    for (int t = min_nights; t <= 5 && !found; ++t) {
       history.add_nights(1);
       for (const TimeChange& change : find_time_changes(history.table, {}))
         found = found || (change.series == series && change.shift > 0);
@@ -253,7 +253,7 @@ TEST_P(SlowdownSimulation, IsFoundWithinFiveNights) {
   fmt::print("{} of {} histories (95 %: {:.3f} to {:.3f}) after {} nights\n", found_in_time,
              histories, binomial::find_lower_bound_on_p(histories, found_in_time, 0.025),
              binomial::find_upper_bound_on_p(histories, found_in_time, 0.025), nights);
-  EXPECT_GE(found_in_time, (part == 1 ? least_found : 0.8) * histories);
+  EXPECT_GE(found_in_time, (part == 1 ? min_found : 0.8) * histories);
 }
 
 // Of all cases less often than of one: a disturbed night or kernel is an outlier of the whole

@@ -144,10 +144,10 @@ TEST_F(ProcessTree, MemoryIsThatOfTheLargestMoment) {
 
 TEST_F(ProcessTree, MemoryIsNotThatOfItsParent) {
   const std::string ballast(std::size_t{64} << 20, 'x');
-  std::int64_t most_bytes = 0;  // of each 0, if it ended before the first check
-  for (int k = 0; k < 5; ++k) most_bytes = std::max(most_bytes, run("sleep 0.1").peak_bytes);
-  EXPECT_GT(most_bytes, 0);
-  EXPECT_LE(most_bytes, std::int64_t{8} << 20);
+  std::int64_t max_bytes = 0;  // of each 0, if it ended before the first check
+  for (int k = 0; k < 5; ++k) max_bytes = std::max(max_bytes, run("sleep 0.1").peak_bytes);
+  EXPECT_GT(max_bytes, 0);
+  EXPECT_LE(max_bytes, std::int64_t{8} << 20);
 }
 
 TEST_F(ProcessTree, WhoEndsItsGuardianIsNoAnswer) {

@@ -19,7 +19,7 @@ namespace airybench::random_scenes_test {
 namespace {
 
 constexpr unsigned seed = 1;
-constexpr double most_times_the_estimate = 10;
+constexpr double max_times_the_estimate = 10;
 // Below, an error is the rounding of the stresses, of which no estimate speaks.
 constexpr double rounding = 1e-12;
 
@@ -71,7 +71,7 @@ void hold(const std::string& name, const Record& record, Tally& tally) {
     tally.worst_ratio = ratio;
     tally.worst = name;
   }
-  EXPECT_LE(ratio, most_times_the_estimate)
+  EXPECT_LE(ratio, max_times_the_estimate)
       << name << ": " << outcome_of(record) << ", error " << error << ", its own estimate "
       << *record.error_estimate << ", of the reference " << record.reference_error.value_or(0)
       << "; stress, force, equilibrium, law " << record.error_stress.value_or(0) << " "
