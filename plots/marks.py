@@ -17,7 +17,7 @@ from matplotlib.lines import Line2D
 from drawing import HEADROOM, LINE, TYPE
 from records import Row
 from selection import by_stop, of_scene
-from words import axis_of, cases_by_reason, heap_caption, plain, short, time_caption, wrapped
+from words import axis_label, cases_by_reason, heap_caption, plain, short, time_caption, wrapped
 
 WIDTH = 6.3  # inches: 16 cm
 SMALL = 7
@@ -60,8 +60,8 @@ class Quantity:
         return [(row, value) for row, value, mark in self.marked(rows) if mark == "done"]
 
 
-TIME = Quantity("time", axis_of("time_s"), time_caption)
-HEAP = Quantity("memory", axis_of("peak_heap_bytes"), heap_caption)
+TIME = Quantity("time", axis_label("time_s"), time_caption)
+HEAP = Quantity("memory", axis_label("peak_heap_bytes"), heap_caption)
 
 
 def notes_of(cases: Iterable[tuple[str, Row]], quantity: Quantity) -> list[str]:

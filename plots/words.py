@@ -44,7 +44,7 @@ def cell(value: object) -> object:
     return value
 
 
-def axis_of(key: str) -> str:
+def axis_label(key: str) -> str:
     """peak_heap_bytes -> peak heap, MiB."""
     field = FIELDS[key]
     unit = {"1": "", "B": "MiB"}.get(field["unit"], field["unit"])

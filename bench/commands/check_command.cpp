@@ -32,8 +32,7 @@ Options parse_check(int argc, const char* const* argv, std::filesystem::path& de
   options.limits.repetitions = 1;
   CLI::App app(
       "Runs another program on small cases that each find one mistake, and says which mistake "
-      "wrong "
-      "answers look like.",
+      "wrong answers look like.",
       "{bench} check");
   app.footer(check_footer);
   app.add_option("DECLARATION", declaration, "of the program: a JSON file")->required();

@@ -267,7 +267,7 @@ int solve_command(int argc, const char* const* argv) {
                         {"assumptions", assumptions},
                         {"notes", said.notes()},
                         {"largest_pressure_is", record.largest_pressure_is},
-                        {"error_total", record.error_total ? Json(*record.error_total) : Json()},
+                        {"error_total", or_null(record.error_total)},
                         {"report", to_json(report)}};
     // After the records: where these are newer, a later run has written them.
     write_file_atomically(options.output.folder / "part.json", json_text(shown));

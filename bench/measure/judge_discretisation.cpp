@@ -217,9 +217,7 @@ void Judge::write_fields_of(const Method& method, const ContactSystem& system,
       bound && record.outcome != other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
   fields.picture = common_.picture;
-  if (!solution.as<Displacements>() && !solution.as<EdgeDisplacements>() && known != nullptr &&
-      known->u.allFinite())
-    fields.w = known->u;
+  if (!fields.w && known != nullptr && known->u.allFinite()) fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
     if (known->intervals) fields.intervals = &*known->intervals;

@@ -49,17 +49,16 @@ class PartReader {
       answer.free_motion = words_of_open_motions(rigid_contact(problem_));
     if (w && answer.free_motion.empty())
       answer.displacement_mm = largest_displacement(with_rigid_motion(problem_, *w));
-    judge_largest_stresses(w, answer);
+    std::tie(answer.von_mises, answer.principal) = judged_largest_stresses(w);
     return answer;
   }
 
   std::optional<StressDoubt> stress_doubt(const std::optional<DisplacementField>& w) const {
-    PartAnswer answer;
-    judge_largest_stresses(w, answer);
+    const auto judged = judged_largest_stresses(w);
     StressDoubt doubt;
     std::array<double, 2> least = {infinity, infinity};  // that may be the largest
     for (const auto& [largest, from] :
-         {std::pair(&answer.von_mises, &least[0]), {&answer.principal, &least[1]}})
+         {std::pair(&judged.first, &least[0]), {&judged.second, &least[1]}})
       if (const double value = std::abs(largest->value);
           !largest->unbounded && largest->off_MPa && value > 0) {
         doubt.relative = std::max(doubt.relative, *largest->off_MPa / value);
@@ -112,9 +111,11 @@ class PartReader {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  void judge_largest_stresses(const std::optional<DisplacementField>& w, PartAnswer& answer) const {
-    std::tie(answer.von_mises, answer.principal) = largest_stresses(stress_);
-    for (LargestStress* largest : {&answer.von_mises, &answer.principal})
+  // Von Mises and principal, with what is known of them.
+  std::pair<LargestStress, LargestStress> judged_largest_stresses(
+      const std::optional<DisplacementField>& w) const {
+    std::pair<LargestStress, LargestStress> judged = largest_stresses(stress_);
+    for (LargestStress* largest : {&judged.first, &judged.second})
       largest->unbounded = singular_place_near(largest->at_mm, largest->triangle);
     if (w && error_ != nullptr) {
       const auto [von_mises, principal] = largest_stresses(stress_of_displacement(problem_, *w));
@@ -127,9 +128,10 @@ class PartReader {
             twice_estimated_error_MPa(problem_, *error_, t, factor * A(component, component),
                                       largest.value - of_displacements, std::abs(largest.value));
       };
-      estimate(answer.von_mises, von_mises.value, 2, 3);
-      estimate(answer.principal, principal.value, 0, 1);
+      estimate(judged.first, von_mises.value, 2, 3);
+      estimate(judged.second, principal.value, 0, 1);
     }
+    return judged;
   }
 
   int rows() const { return static_cast<int>(mesh_.boundary.size()); }
@@ -339,10 +341,9 @@ Json to_json(const LargestStress& largest) {
   return json;
 }
 Json to_json(const PointSupport& support) {
-  Json held = Json::array();
-  for (const std::optional<double>& u : support.displacement_mm)
-    held.push_back(u ? Json(*u) : Json());
-  return {{"at_mm", point(support.at_mm)}, {"displacement_mm", held}};
+  const auto& [ux_mm, uy_mm] = support.displacement_mm;
+  return {{"at_mm", point(support.at_mm)},
+          {"displacement_mm", Json::array({or_null(ux_mm), or_null(uy_mm)})}};
 }
 Json to_json(const FaceAnswer& face) {
   Json json = {{"name", face_name(face.labels)},

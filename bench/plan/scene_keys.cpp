@@ -167,9 +167,7 @@ static KeyTable table(PointSupport& point) {
       if (!json[k].is_null()) displacement_mm[k] = json[k].get<double>();
   };
   const auto give = [&displacement_mm] {
-    Json both = Json::array();
-    for (const std::optional<double>& u : displacement_mm) both.push_back(u ? Json(*u) : Json());
-    return both;
+    return Json::array({or_null(displacement_mm[0]), or_null(displacement_mm[1])});
   };
   return {{required(key("at_mm", point.at_mm)),
            {.name = "displacement_mm", .take = take, .give = give},
@@ -293,7 +291,7 @@ static JsonKey crown_key(std::optional<double>& radius_mm) {
     radius_mm.reset();
     if (!value.json.is_null()) read(value, radius_mm);
   };
-  const auto give = [&radius_mm] { return radius_mm ? Json(*radius_mm) : Json(); };
+  const auto give = [&radius_mm] { return or_null(radius_mm); };
   return {.name = "crown_radius_mm", .take = take, .give = give};
 }
 

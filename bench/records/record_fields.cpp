@@ -153,7 +153,7 @@ struct Rule {
   bool is_required = false;
   std::vector<std::string> words = {};
 };
-Rule word_of(const std::vector<std::string>& words, Shape accepts, bool is_required = false) {
+Rule word_rule(const std::vector<std::string>& words, Shape accepts, bool is_required = false) {
   return {fmt::format("{}{}", fmt::join(words, ", "), is_required ? "" : ", null"), accepts,
           is_required, words};
 }
@@ -173,12 +173,12 @@ const Rule number{"a number, null", is_number};
 const Rule amount{"a number >= 0, null", is_amount};
 const Rule positive{"a number > 0, null", is_positive};
 const Rule fraction{"a number from 0 to 1, null", is_fraction};
-const Rule status = word_of(names_of(all_statuses), is_word<status_of>, true);
-const Rule claim = word_of(names_of(all_statuses), is_word<status_of>);
-const Rule stop = word_of(names_of(all_stops), is_word<stop_of>);
-const Rule contact = word_of(names_of(all_contact_solvers), is_word<contact_solver_of>);
-const Rule outcome = word_of(texts(all_outcomes), is_one_of<all_outcomes>);
-const Rule points = word_of(texts(all_points), is_one_of<all_points>);
+const Rule status = word_rule(names_of(all_statuses), is_word<status_of>, true);
+const Rule claim = word_rule(names_of(all_statuses), is_word<status_of>);
+const Rule stop = word_rule(names_of(all_stops), is_word<stop_of>);
+const Rule contact = word_rule(names_of(all_contact_solvers), is_word<contact_solver_of>);
+const Rule outcome = word_rule(texts(all_outcomes), is_one_of<all_outcomes>);
+const Rule points = word_rule(texts(all_points), is_one_of<all_points>);
 const Rule times{"a list of numbers > 0", is_list};
 const Rule stage_times{"a list of objects of numbers", is_list_of<is_object_of<is_number>>};
 const Rule words{"a list of texts", is_list_of<is_text>};

@@ -306,7 +306,7 @@ Json Comparison::json() const {
                        {"verdict", name_of(one.verdict)}});
     compared.push_back(std::move(json));
   }
-  return {{"drift", drift ? Json(*drift) : Json()},
+  return {{"drift", or_null(drift)},
           {"minimum_effect", rules.minimum_effect},
           {"geometric_mean",
            mean_ratio ? Json{{"ratio", *mean_ratio}, {"interval", interval_json(mean_interval)}}

@@ -23,7 +23,6 @@ constexpr std::array<std::string_view, 4> lane_names = {"status", "counters", "e
 constexpr std::array<std::string_view, 3> kind_names = {"worse", "better", "changed"};
 
 Json to_json(const Finding& finding) {
-  const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(); };
   return {{"case", finding.case_name},    {"lane", name_of(finding.lane)},
           {"quantity", finding.quantity}, {"before", finding.before},
           {"after", finding.after},       {"kind", name_of(finding.kind)},

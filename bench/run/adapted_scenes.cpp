@@ -105,10 +105,10 @@ Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
   return {{"file", file.string()},
           {"number", level.number},
           {"unknowns", level.unknowns},
-          {"error", level.error ? Json(*level.error) : Json()},
+          {"error", or_null(level.error)},
           {"reaches", level.goal.has_value()},
           {"angle", mesh_quality(level.mesh).smallest_angle_deg},
-          {"goal", level.goal && level.goal->error ? Json(*level.goal->error) : Json()},
+          {"goal", level.goal ? or_null(level.goal->error) : Json()},
           {"time_s", level.time_s}};
 }
 

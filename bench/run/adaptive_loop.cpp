@@ -69,8 +69,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   solve_load_steps(method_.solve, system, control,
                    [&](int step, const ContactSystem& posed, const Solution& answer) {
                      limit.reset();
-                     judge_step(step_prefix(static_cast<std::size_t>(step), *problem), posed,
-                                answer, error);
+                     judge_step(step, *problem, posed, answer, error);
                    });
   limit.reset();
   if (!ended_.empty()) return {};
@@ -92,8 +91,9 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   return level;
 }
 
-void AdaptiveLoop::judge_step(const std::string& prefix, const ContactSystem& system,
+void AdaptiveLoop::judge_step(int step, const Problem& path, const ContactSystem& system,
                               const Solution& solution, TotalError& error) {
+  const std::string prefix = step_prefix(static_cast<std::size_t>(step), path);
   if (solution.status != Status::ok) {
     ended_ = fmt::format("{} on {} unknowns: {}{}: {}", method_.name, mesh_sizes(mesh_).n_phi,
                          prefix, name_of(solution.status), solution.message);
@@ -102,7 +102,7 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const ContactSystem& sy
   const DisplacementField w = recovered_displacement(system, solution);
   const ConstitutiveError of_step = constitutive_error(system, solution.stress, solution.F_C, w);
   error.add(of_step, prefix);
-  if (settings_.stress_error) {
+  if (settings_.stress_error && step == std::ssize(path.later_steps)) {
     const SolvedFields fields{system, solution, w, &of_step, nullptr, {}};
     doubt_ = of_step.flaw.empty() ? stress_doubt(fields) : std::nullopt;
   }

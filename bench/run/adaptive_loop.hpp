@@ -63,8 +63,8 @@ class AdaptiveLoop {
   const std::string& why_ended() const { return ended_; }  // if not all are reached; else empty
 
  private:
-  void judge_step(const std::string& prefix, const ContactSystem& system, const Solution& solution,
-                  TotalError& error);
+  void judge_step(int step, const Problem& path, const ContactSystem& system,
+                  const Solution& solution, TotalError& error);
   bool refine();
   BisectedMesh marked_and_bisected() const;
   BisectedMesh bisected_as_expected();

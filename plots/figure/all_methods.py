@@ -12,10 +12,10 @@ from drawing import (MARGIN, MATH, PAGE_WIDTH, TYPE, Drawing, axes_at, error_flo
 from labels import LEFT, NAMES_APART, draw_names, mark_meshes
 from records import Row
 from selection import by_body, by_method, exponent, of_scene, sharing_axes, value_of
-from words import CASE, axis_of, csv_of, lacking, plain, threads, unseen, width_of
+from words import CASE, axis_label, csv_of, lacking, plain, threads, unseen, width_of
 
 TOP, BETWEEN, LOWEST, BOTTOM = 1.15, 0.12, 2.5, 0.5  # inches; LOWEST: a panel
-PANELS = {"time_s": "time", "peak_heap_bytes": "peak heap", "error_force": axis_of("error_force")}
+PANELS = {"time_s": "time", "peak_heap_bytes": "peak heap", "error_force": axis_label("error_force")}
 POWER = 0.6  # inches, for an exponent
 
 
@@ -91,7 +91,7 @@ def draw_panel(axes: Axes, column: str, lines: dict[str, list[Row]]) -> None:
         return max(value_of(row, column), floor)
 
     sizes = [row.n_phi for line in lines.values() for row in line]
-    log_log(axes, ylabel=axis_of(column), ylim=log_limits(map(shown, rows)),
+    log_log(axes, ylabel=axis_label(column), ylim=log_limits(map(shown, rows)),
             xlim=(min(sizes) / 1.3, 1.3 * max(sizes)))
     axes.grid(which="major")
     for line in known.values():

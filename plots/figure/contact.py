@@ -9,7 +9,7 @@ from drawing import (Drawing, axes_at, file_name, log_limits, log_log, sheet, si
                      text_at)
 from records import CONTACT_SOLVERS, Row
 from selection import grouped
-from words import CASE, axis_of, csv_of, lacking, plain, threads
+from words import CASE, axis_label, csv_of, lacking, plain, threads
 
 LEFT, TOP, GAP, HEIGHT, BOTTOM, KEY = 0.72, 0.62, 0.12, 2.3, 0.45, 0.3  # inches
 LOOKS = (("#000000", "o"), ("#D55E00", "s"), ("#0072B2", "^"), ("#00805C", "D"), ("#CC79A7", "v"),
@@ -53,7 +53,7 @@ def seconds(row: Row) -> float | None:
     return row.stage_contact_s if row.solved else None
 
 
-QUANTITIES = ((seconds, axis_of("stage_contact_s")), (iterations, "iterations"))
+QUANTITIES = ((seconds, axis_label("stage_contact_s")), (iterations, "iterations"))
 
 
 def table_of(rows: list[Row]) -> str:

@@ -12,7 +12,7 @@ from drawing import PAGE_WIDTH, Drawing, axes_at, log_limits, log_log, panel_at,
 from labels import Labels
 from records import Row
 from selection import by_body, by_mesh, exponent, of_mesh, scene_of
-from words import axis_of, columns_of, csv_of, percent, plain
+from words import axis_label, columns_of, csv_of, percent, plain
 
 LEFT, TOP, HEIGHT, BELOW, BOTTOM, GAP = 0.72, 0.4, 3.8, 2.6, 0.55, 0.85  # inches
 TITLE = 0.3  # over the bounds
@@ -110,7 +110,7 @@ def draw_errors(axes: Axes, bodies: dict[str, list[Row]],
                 marks: dict[str, tuple[str, str]]) -> None:
     h, errors = line_of([point for points in bodies.values() for point in points])
     log_log(axes, xlim=log_limits(h, 1.25), ylim=log_limits(errors, 1.4), xlabel=H,
-            ylabel=f"relative {axis_of('error_discretisation')}")
+            ylabel=f"relative {axis_label('error_discretisation')}")
     labels = Labels(axes)
     for points in bodies.values():
         labels.avoid(*line_of(points))

@@ -8,7 +8,7 @@ from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
 from figure.adaptive import adapting, draw_over_time, kinds_in, words_of_crosses
 from records import Row
 from selection import grouped, kind_of
-from words import CASE, axis_of, csv_of, left_out, plain, threads
+from words import CASE, axis_label, csv_of, left_out, plain, threads
 
 LEFT, TOP, HEIGHT, BETWEEN, GAP = 0.72, 0.62, 2.9, 0.78, 0.6  # inches
 PANELS, IN_ROW = 4, 2
@@ -71,7 +71,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
                         width, HEIGHT)
         axes.set_title(plain(title_of(panel)), pad=4)
         log_log(axes, xlim=log_limits(map(time_of, own), 1.5), ylim=errors, xlabel="time, s",
-                ylabel="" if k % IN_ROW else axis_of("error_total"))
+                ylabel="" if k % IN_ROW else axis_label("error_total"))
         draw_over_time(axes, own, time_of).name_lines(weight="bold")
     return figure
 

@@ -9,7 +9,7 @@ from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from records import Row
 from selection import by_body, by_method, exponent, kind_of, of_scene
-from words import CASE, axis_of, csv_of, lacking, threads, unseen
+from words import CASE, axis_label, csv_of, lacking, threads, unseen
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP, BETWEEN = 0.68, 0.4, 0.42, 2.6, 0.62, 0.5  # inches
 ASYMPTOTIC = 200_000  # unknowns, from which on exponents are fitted
@@ -34,11 +34,11 @@ class Panel:
     unit: float = 1
 
 
-PANELS = (Panel("time_s", axis_of("time_s"), lambda row: row.time_s),
+PANELS = (Panel("time_s", axis_label("time_s"), lambda row: row.time_s),
           Panel("memory_bytes", "memory, GiB", memory_of, unit=2**30),
           Panel("linear_iterations", "iterations of linear solves",
                 lambda row: row.linear_iterations, grows=False),
-          Panel("error", axis_of("error_stress"), error_of, grows=False))
+          Panel("error", axis_label("error_stress"), error_of, grows=False))
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:

@@ -9,7 +9,7 @@ from figure.adaptive import loops_in
 from labels import Labels
 from records import Row
 from selection import by_body, grouped, kind_of, line_of, of_scene, order
-from words import CASE, axis_of, csv_of, left_out, short, threads
+from words import CASE, axis_label, csv_of, left_out, short, threads
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.72, 0.6, 0.45, 3.7, 0.15  # inches
 BODIES = 2  # that there is room for
@@ -82,8 +82,8 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
     for axes, (body, own) in zip(panels, bodies.items()):
         loops = loops_of(own)
         times = [row.time_s for row in own] + [time for loop in loops for time, _ in loop]
-        log_log(axes, xlim=log_limits(times, 1.5), ylim=errors, xlabel=axis_of("time_s"),
-                ylabel=axis_of("error_total") if axes is panels[0] else "")
+        log_log(axes, xlim=log_limits(times, 1.5), ylim=errors, xlabel=axis_label("time_s"),
+                ylabel=axis_label("error_total") if axes is panels[0] else "")
         labels = Labels(axes)
         for curve in curves[body]:
             look = curve.rows[0].look

@@ -11,7 +11,7 @@ from labels import Labels
 from records import Row
 from selection import (by_body, front, given, grouped, is_paper_stop, kind_of, line_of, of_mesh,
                        of_scene, value_of)
-from words import (CASE, KNOB, axis_of, csv_of, lacking, left_out, mebibytes, names_of, percent,
+from words import (CASE, KNOB, axis_label, csv_of, lacking, left_out, mebibytes, names_of, percent,
                    plain, seconds, threads, width_of)
 
 LEFT, TOP, HEIGHT, GAP, BOTTOM = 0.72, 0.65, 3.5, 0.2, 0.45  # inches, of a body
@@ -135,7 +135,7 @@ def draw(rows: list[Row]) -> Figure | str:
         panels = side_by_side(figure, [""] * len(columns), LEFT, above + TOP, HEIGHT, GAP)
         for axes, column in zip(panels, columns):
             own = [row for row in of_body if value_of(row, column)]
-            log_log(axes, xlabel=axis_of(column), ylim=(min(errors) / 1.25, max(errors) * 1.1),
+            log_log(axes, xlabel=axis_label(column), ylim=(min(errors) / 1.25, max(errors) * 1.1),
                     xlim=log_limits([value_of(row, column) for row in own], 1.6))
             axes.grid(False)
             draw_panel(axes, own, column, kinds)

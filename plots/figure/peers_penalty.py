@@ -10,7 +10,7 @@ from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from records import Row
 from selection import by_mesh, grouped, of_scene
-from words import CASE, axis_of, csv_of, left_out, plain, threads
+from words import CASE, axis_label, csv_of, left_out, plain, threads
 
 LEFT, TOP, HEIGHT, BETWEEN, GAP = 0.72, 0.62, 3.4, 0.78, 0.2  # inches
 PANELS, IN_ROW = 4, 2
@@ -89,7 +89,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
         axes = panel_at(figure, LEFT + k % in_row * (width + GAP), TOP + k // in_row * (HEIGHT + BETWEEN),
                         width, HEIGHT)
         log_log(axes, xlim=times, ylim=errors, xlabel="time, s", title=plain(mesh),
-                ylabel="" if k % in_row else axis_of("error_total"))
+                ylabel="" if k % in_row else axis_label("error_total"))
         axes.tick_params(labelleft=k % in_row == 0)
         draw_panel(axes, own)
     return figure

@@ -19,7 +19,7 @@ from drawing import PAGE_WIDTH, TYPE, Drawing, log_axis, panel_at, sheet
 from labels import DASHED, LEFT, draw_names
 from records import Row
 from selection import compared, grouped, with_suffix
-from words import axis_of, counted, csv_of, left_out, threads, width_of
+from words import axis_label, counted, csv_of, left_out, threads, width_of
 
 TOP, PANEL, BETWEEN, BOTTOM = 0.45, 2.3, 0.55, 0.5  # inches
 METHODS = 2  # at least
@@ -142,7 +142,7 @@ def profiles_of(cases: Cases) -> list[Profile]:
     again = cases.resampled() if repeated else times[None]
     found = [Profile("performance", "time_s", "time relative to that of the fastest method",
                      ratios(times), ratios(again)),
-             Profile("data", "time_s", axis_of("time_s"), times, again)]
+             Profile("data", "time_s", axis_label("time_s"), times, again)]
     heaps = cases.costs(lambda row: row.peak_heap_bytes or np.nan)
     if not np.isnan(heaps).any():
         found.insert(1, Profile("performance", "peak_heap_bytes",

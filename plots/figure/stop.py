@@ -8,7 +8,7 @@ from drawing import Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from records import Row
 from selection import given, grouped, is_paper_stop, of_scene
-from words import CASE, axis_of, csv_of, left_out, percent, short
+from words import CASE, axis_label, csv_of, left_out, percent, short
 
 LEFT, TOP, PANEL, GAP, HEIGHT, BOTTOM = 0.72, 0.4, 3.38, 0.72, 3.8, 0.5  # inches
 SHADES = ("#000000", "#0072B2", "#D55E00", "#00805C", "#8A3FA0", "#C98500", "#56B4E9", "#777777")
@@ -66,10 +66,10 @@ def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     left = panel_at(figure, LEFT, TOP, PANEL, HEIGHT)
     draw_panel(left, curves, "error_force", [target])
     left.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)))
-    left.set_ylabel(f"relative {axis_of('error_force')}")
+    left.set_ylabel(f"relative {axis_label('error_force')}")
     right = panel_at(figure, LEFT + PANEL + GAP, TOP, PANEL, HEIGHT)
     draw_panel(right, curves, "uzawa_iterations", [])
-    right.set_ylabel(axis_of("uzawa_iterations"))
+    right.set_ylabel(axis_label("uzawa_iterations"))
     return figure
 
 

@@ -9,7 +9,7 @@ from labels import Labels
 from records import Row
 from selection import (by_mesh, front, given, grouped, is_paper_stop, of_scene, order,
                        value_of)
-from words import CASE, KNOB, axis_of, csv_of, lacking, percent, short, threads, unseen
+from words import CASE, KNOB, axis_label, csv_of, lacking, percent, short, threads, unseen
 
 LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 0.72, 0.35, (4.75, 2.45), 5.0, 0.28, 0.5  # inches
 HIGHEST = 1e3  # errors above are drawn here
@@ -97,11 +97,11 @@ def draw_panel(axes: Axes, column: str, rows: list[Row], floor: float, target: f
 
     curves = curves_of(rows)
     highest = min(max([row.error_force for row in rows] + [target]), HIGHEST)
-    log_log(axes, xlabel=axis_of(column), ylim=(floor / 2, 4 * highest),
+    log_log(axes, xlabel=axis_label(column), ylim=(floor / 2, 4 * highest),
             xlim=log_limits([value_of(row, column) for row in rows], 1.7))
     axes.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)), zorder=2)
     first = column == "time_s"
-    axes.set_ylabel(f"relative {axis_of('error_force')}" if first else "")
+    axes.set_ylabel(f"relative {axis_label('error_force')}" if first else "")
     axes.tick_params(labelleft=first)
     labels = Labels(axes)
     labels.avoid(axes.get_xlim(), [target] * 2)

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "support/lists.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::testing {
@@ -13,18 +13,13 @@ namespace airybench::testing {
 using Columns = std::map<std::string, std::vector<std::string>>;
 
 inline Columns csv_columns(const std::string& csv) {
-  const auto cells_of = [](const std::string& line) {
-    std::vector<std::string> cells;
-    std::istringstream text(line + ",");
-    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
-    return cells;
-  };
-  const std::vector<std::string> lines = lines_of(csv), names = cells_of(lines.at(0));
+  const std::vector<std::string> lines = lines_of(csv), names = split_list(lines.at(0));
   Columns columns;
   for (const std::string& name : names) columns[name] = {};
-  for (std::size_t row = 1; row < lines.size(); ++row)
-    for (std::size_t k = 0; k < names.size(); ++k)
-      columns[names[k]].push_back(cells_of(lines[row]).at(k));
+  for (std::size_t row = 1; row < lines.size(); ++row) {
+    const std::vector<std::string> cells = split_list(lines[row]);
+    for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(cells.at(k));
+  }
   return columns;
 }
 
