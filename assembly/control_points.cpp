@@ -65,6 +65,13 @@ ContactOffset offset_on_roller(const ContactOffset& own, const EdgeFrame& face,
   return {.gap_mm = gap_mm, .slid_mm = rests ? 0 : -slip_mm};
 }
 
+// Of a crack: one vertex of both faces, which nothing parts.
+bool is_tip(const Problem& problem, int row, int vertex) {
+  const int other = problem.opposite_of(row);
+  return other != Problem::no_row &&
+         std::ranges::count(problem.mesh.boundary[other].vertices, vertex) > 0;
+}
+
 template <int p>
 ControlPoints control_points(const Problem& problem) {
   ControlPoints points;
@@ -89,7 +96,7 @@ ControlPoints control_points(const Problem& problem) {
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
     const std::array<ContactOffset, p + 1> offsets = offset_coefficients<p>(problem, row);
     for (int k = 0; k <= p; ++k) {
-      if (prescribed->at[nodes[k]]) continue;
+      if (prescribed->at[nodes[k]] || is_tip(problem, row, nodes[k])) continue;
       const EdgeFrame frame = frame_of_coefficient<p>(problem, row, k);
       const Eigen::Vector2d& normal = frame.normal;
       if (const auto roller = prescribed->normal.find(nodes[k]);

@@ -78,7 +78,9 @@ std::optional<EndRow> end_row(const Problem& problem, int row, int end, int face
     }
   }
   result.end.gap_mm = std::max(gap_mm, 0.);
-  if (result.end.pieces == std::array{RigidContact::held, RigidContact::held}) return {};
+  if (result.end.pieces == std::array{RigidContact::held, RigidContact::held} ||
+      (sides.size() == 2 && sides[0].piece == sides[1].piece))  // a crack's faces
+    return {};
   return result;
 }
 

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <numeric>
 
 #include "mesh/fault_places.hpp"
@@ -139,6 +141,38 @@ std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides
   return next;
 }
 
+// Contact edges of one piece that lie on each other are the faces of a crack: without them, and
+// with the vertices that they join as one, the boundary is simple.
+std::vector<int> without_cracks(const Mesh& mesh, const MeshPieces& pieces, std::vector<int> next) {
+  using Place = std::array<double, 4>;
+  const auto place = [&](int a, int b) {
+    const Eigen::Vector2d &x = mesh.vertices[a], &y = mesh.vertices[b];
+    return Place{x.x(), x.y(), y.x(), y.y()};
+  };
+  std::map<Place, std::vector<int>> starts;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact)
+      starts[place(edge.vertices[0], edge.vertices[1])].push_back(edge.vertices[0]);
+  std::vector<int> as(next.size());
+  std::iota(as.begin(), as.end(), 0);
+  std::vector<bool> is_crack(next.size(), false);
+  for (const auto& [ends, of_first] : starts) {
+    const auto reversed = starts.find({ends[2], ends[3], ends[0], ends[1]});
+    if (reversed == starts.end()) continue;
+    for (const int a : of_first)
+      for (const int c : reversed->second) {
+        if (pieces.of_vertex[a] != pieces.of_vertex[c]) continue;
+        is_crack[a] = is_crack[c] = true;
+        as[std::max(a, next[c])] = std::min(a, next[c]);
+        as[std::max(next[a], c)] = std::min(next[a], c);
+      }
+  }
+  std::vector<int> rest(next.size(), -1);
+  for (int v = 0; v < static_cast<int>(next.size()); ++v)
+    if (next[v] != -1 && !is_crack[v]) rest[as[v]] = as[next[v]];
+  return rest;
+}
+
 // The vertices of each closed curve of the boundary.
 std::vector<std::vector<int>> boundary_curves(const std::vector<int>& next) {
   std::vector<std::vector<int>> curves;
@@ -183,8 +217,9 @@ void check_overlap(const Mesh& mesh, const std::vector<int>& next,
     fail(mesh, std::to_string(outer) + " outer boundaries; the body must not overlap itself");
 }
 
-void check_overlap(const Mesh& mesh, const std::vector<int>& next) {
+void check_overlap(const Mesh& mesh, const std::vector<int>& of_boundary) {
   const MeshPieces pieces = pieces_of(mesh);
+  const std::vector<int> next = without_cracks(mesh, pieces, of_boundary);
   std::vector<std::vector<std::vector<int>>> curves(static_cast<std::size_t>(pieces.count));
   for (std::vector<int>& curve : boundary_curves(next))
     curves[pieces.of_vertex[curve.front()]].push_back(std::move(curve));
@@ -203,6 +238,12 @@ std::string boundary_label(const Mesh& mesh, const BoundaryEdge& edge) {
   if (edge.group != BoundaryEdge::no_group)
     label += ":" + mesh.boundary_groups[static_cast<std::size_t>(edge.group)];
   return label;
+}
+
+double turning_angle(const Eigen::Vector2d& in, const Eigen::Vector2d& out) {
+  constexpr double rounding = 1e-6;  // no triangle has so small an angle
+  const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+  return turn < std::numbers::pi - rounding ? turn : -std::numbers::pi;
 }
 
 Eigen::Vector2d point_on(const Mesh& mesh, const BoundaryEdge& edge, double t) {

@@ -48,6 +48,10 @@ struct Mesh {
 // group, "force:top". Edges of one name and two roles are two groups.
 std::string boundary_label(const Mesh& mesh, const BoundaryEdge& edge);
 
+// From the direction into a corner of the boundary to that out of it, in [−π, π): −π at the tip of
+// a crack, where the body is all around.
+double turning_angle(const Eigen::Vector2d& in, const Eigen::Vector2d& out);
+
 // Where a boundary edge is cut, at a parameter of its curve or chord, and how: it keeps the first
 // part, the second is returned. vertex: at that place.
 Eigen::Vector2d point_on(const Mesh& mesh, const BoundaryEdge& edge, double t);
@@ -88,7 +92,8 @@ inline constexpr double flat_triangle_tolerance = 1e-13;
 // its triangle, or of a group that does not exist; a boundary edge without a role; neither
 // displacement nor contact edges; within a piece a boundary that touches or crosses itself or,
 // around a hole, another one; triangles that overlap; a curve that does not start and end at its
-// edge's vertices. Different pieces may touch and overlap.
+// edge's vertices. Different pieces may touch and overlap, and contact edges of one piece lie on
+// each other: the faces of a crack, whose tips are single vertices.
 void validate(const Mesh& mesh);
 
 // Parts that no triangle joins, numbered in the order of their lowest vertices.

@@ -29,6 +29,7 @@ struct MatchingFace {
   std::set<int> fixed;                       // vertices that must stay: ends and corners
 };
 MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, const Scene& scene);
+double diagonal_mm(const Mesh& mesh);
 
 // Throws TransformError if the curve that a contact edge stands for is farther from it.
 void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
@@ -37,21 +38,31 @@ inline constexpr double max_of_face = 0.05;  // of the mesh's size
 
 // The group of contact edges that meet nothing, and are free.
 inline constexpr std::string_view out_of_reach = "out of reach";
+void free_unmet_edges(Mesh& mesh, const ContactPair& pair, const std::vector<bool>& is_met);
 
 struct FaceMatching {
   std::map<int, int> twin;  // per vertex of the first face, the vertex of the second that it faces
   std::array<std::map<int, Eigen::Vector2d>, 2> normal;  // per face and vertex
   Problem::Matching changes;
   std::vector<int> split_rows;  // of Mesh::boundary, with vertices inserted
-  // A place that two vertices of the other face meet: a step or a fold of that face.
-  std::optional<Eigen::Vector2d> met_twice;
 };
 
 // A vertex nearer to one of the other face than this share of the shorter edge at either is moved.
 inline constexpr double snapping = 0.15;
 
+// Throws TransformError: a label that is no contact group, or given twice.
+void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs);
+// "contacts: contact:a and contact:b", for messages.
+std::string place_of(const ContactPair& pair);
+
 // Puts the vertices of each face into the other, or moves those that nearly match. Vertices farther
-// apart than reach_mm do not face each other. Where a place is met twice, the mesh is of no use.
-FaceMatching match_faces(Mesh& mesh, std::array<MatchingFace, 2> faces, double reach_mm);
+// apart than the mesh's diagonal do not face each other. Throws TransformError: a place is met
+// twice, and the mesh of no use.
+FaceMatching match_faces(Mesh& mesh, const ContactPair& pair, const Scene& scene);
+
+// Rows of Mesh::boundary: an edge of the first face and the one of the second that it faces, once
+// they match. Throws TransformError if there are none.
+std::vector<std::array<int, 2>> facing_edges(const Mesh& mesh, const ContactPair& pair,
+                                             const FaceMatching& matching);
 
 }  // namespace airybench

@@ -14,31 +14,6 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-double diagonal_mm(const Mesh& mesh) {
-  const MeshExtent extent = extent_of(mesh);
-  return std::hypot(extent.width_mm, extent.height_mm);
-}
-
-std::string place_of(const ContactPair& pair) { return "contacts: " + names_of(pair); }
-
-void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs) {
-  std::set<std::string> groups, paired;
-  for (const BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::contact) groups.insert(boundary_label(mesh, edge));
-  const std::string valid = joined(groups);
-  for (const ContactPair& pair : pairs)
-    for (const std::vector<std::string>& labels : pair.between)
-      for (const std::string& label : labels) {
-        if (!groups.contains(label))
-          refuse("contacts: between", label,
-                 "is no contact group of the mesh " + mesh.name +
-                     perhaps(label, {groups.begin(), groups.end()}) +
-                     " (its contact groups: " + (valid.empty() ? "none" : valid) + ")");
-        if (!paired.insert(label).second)
-          refuse("contacts: between", label, "again (allowed: every group in one pair)");
-      }
-}
-
 // Of all load steps.
 double largest_interference_mm(const Scene& scene, const ContactPair& pair) {
   double least = std::min(0.0, pair.clearance_mm.value_or(0));
@@ -69,24 +44,10 @@ class PairedEdges {
         interference_mm_(largest_interference_mm(scene, pair)),
         on_rollers_(vertices_on_rollers(mesh, scene)) {}
 
-  // Sets the edges of both groups; returns how many pairs there are.
-  int put_into(std::vector<std::optional<MatchedEdge>>& edges, double size_mm) const {
-    std::map<int, int> row_at;  // of the second group, per start
-    for (int row = 0; row < static_cast<int>(mesh_.boundary.size()); ++row)
-      if (is_on(1, row)) row_at[mesh_.boundary[row].vertices[0]] = row;
-    int count = 0;
-    for (int row = 0; row < static_cast<int>(mesh_.boundary.size()); ++row) {
-      if (!is_on(0, row)) continue;
-      const auto [a, b] = mesh_.boundary[row].vertices;
-      const auto start = matching_.twin.find(a), end = matching_.twin.find(b);
-      if (start == matching_.twin.end() || end == matching_.twin.end()) continue;
-      const auto other = row_at.find(end->second);
-      if (other == row_at.end() || mesh_.boundary[other->second].vertices[1] != start->second)
-        continue;
-      ++count;
-      put(row, other->second, size_mm, edges);
-    }
-    return count;
+  // Sets the edges of both groups.
+  void put_into(std::vector<std::optional<MatchedEdge>>& edges, double size_mm) const {
+    for (const auto& [row, other] : facing_edges(mesh_, pair_, matching_))
+      put(row, other, size_mm, edges);
   }
 
  private:
@@ -99,9 +60,6 @@ class PairedEdges {
     return (own - other).normalized();
   }
   std::string label(int row) const { return boundary_label(mesh_, mesh_.boundary[row]); }
-  bool is_on(int side, int row) const {
-    return std::ranges::count(pair_.between[side], label(row)) > 0;
-  }
   // From a point of an edge that stands for a curve to the curve.
   double to_curve(int row, const Point& x, const Point& n) const {
     const std::optional<Wall> curve = curve_of(mesh_, row, scene_);
@@ -152,30 +110,40 @@ class PairedEdges {
   std::set<int> on_rollers_;
 };
 
-void check_two_pieces(const Mesh& mesh, const ContactPair& pair,
-                      const std::array<MatchingFace, 2>& faces) {
-  const MeshPieces pieces = pieces_of(mesh);
-  std::array<std::set<int>, 2> of;
-  for (const int side : {0, 1})
-    for (const auto& [v, n] : faces[side].normal) of[side].insert(pieces.of_vertex[v]);
-  for (const int piece : of[0])
-    if (of[1].contains(piece))
-      refuse(place_of(pair), "are on one body",
-             "of the mesh " + mesh.name + " (allowed: groups of different bodies)");
+// Displacement methods have one contact law at a vertex: it faces one other vertex, or a wall.
+void check_one_partner(const Mesh& mesh, const Scene& scene,
+                       const std::vector<std::optional<MatchedEdge>>& edges) {
+  struct Partner {
+    int vertex, row;  // none: a wall
+  };
+  std::map<int, Partner> partner;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const BoundaryEdge& edge = mesh.boundary[row];
+    const std::string label = boundary_label(mesh, edge);
+    if (edge.role != BoundaryRole::contact || (!edges[row] && is_paired(scene, label))) continue;
+    for (const std::size_t end : {0U, 1U}) {
+      const int v = edge.vertices[end],
+                faced = edges[row] ? mesh.boundary[edges[row]->opposite].vertices[1 - end]
+                                   : Problem::no_row;
+      const auto [found, is_new] = partner.try_emplace(v, Partner{faced, row});
+      if (is_new || found->second.vertex == faced) continue;
+      refuse("contacts: " + boundary_label(mesh, mesh.boundary[found->second.row]),
+             "meets " + label,
+             "at the vertex " + shown(mesh.vertices[v]) +
+                 " (allowed: there the same vertex faces both)");
+    }
+  }
 }
 
-// No vertex is in two pairs, or in one and at a wall.
-void check_apart(const Mesh& mesh, const ContactPair& pair,
-                 const std::array<MatchingFace, 2>& faces) {
-  for (const BoundaryEdge& edge : mesh.boundary) {
-    const std::string label = boundary_label(mesh, edge);
-    if (edge.role != BoundaryRole::contact || pair.has(label)) continue;
-    for (const int v : edge.vertices)
-      if (faces[0].normal.contains(v) || faces[1].normal.contains(v))
-        refuse(place_of(pair), "meet " + label,
-               "at the vertex " + shown(mesh.vertices[v]) +
-                   " (allowed: pairs that share no vertex with other contact groups)");
-  }
+// Faces of a crack: once matched, their vertices are in the same places, not nearly.
+void close_crack(Mesh& mesh, const FaceMatching& matching) {
+  constexpr double rounding = 1e-12;  // of the mesh's size
+  const MeshPieces pieces = pieces_of(mesh);
+  const double together_mm = rounding * diagonal_mm(mesh);
+  for (const auto& [v, twin] : matching.twin)
+    if (pieces.of_vertex[v] == pieces.of_vertex[twin] &&
+        (mesh.vertices[v] - mesh.vertices[twin]).norm() <= together_mm)
+      mesh.vertices[twin] = mesh.vertices[v];
 }
 
 }  // namespace
@@ -185,41 +153,25 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
   result.mesh = std::move(mesh);
   Mesh& changed = result.mesh;
   result.edges.resize(changed.boundary.size());
-  if (scene.contacts.empty()) return result;
-  check_labels(changed, scene.contacts);
+  std::vector<ContactPair> pairs = scene.contacts;
+  std::erase_if(pairs, &ContactPair::is_bonded);
+  if (pairs.empty()) return result;
+  check_labels(changed, pairs);
   const double size_mm = diagonal_mm(changed);
-  for (const ContactPair& pair : scene.contacts) {
-    const std::array<MatchingFace, 2> faces = {face_of(changed, pair.between[0], scene),
-                                               face_of(changed, pair.between[1], scene)};
-    check_two_pieces(changed, pair, faces);
-    check_apart(changed, pair, faces);
-    const FaceMatching matching = match_faces(changed, faces, size_mm);
-    if (matching.met_twice)
-      refuse(place_of(pair), "meet twice",
-             "at " + shown(*matching.met_twice) +
-                 " (allowed: faces of which one place, at most, lies in front of another: no steps "
-                 "or folds, and bodies side by side with a gap)");
+  for (const ContactPair& pair : pairs) {
+    const FaceMatching matching = match_faces(changed, pair, scene);
+    close_crack(changed, matching);
     result.edges.resize(changed.boundary.size());
-    const int count = PairedEdges(changed, pair, scene, matching).put_into(result.edges, size_mm);
-    if (count == 0)
-      throw TransformError(place_of(pair) +
-                           " do not face each other (allowed: groups whose outward normals point "
-                           "at each other)");
+    PairedEdges(changed, pair, scene, matching).put_into(result.edges, size_mm);
     result.changes.inserted += matching.changes.inserted;
     result.changes.moved += matching.changes.moved;
-    for (const MatchingFace& face : faces)
-      result.changes.has_curves |= std::ranges::any_of(face.curve, [](const auto& of_row) {
-        return of_row.second && !std::holds_alternative<FlatWall>(*of_row.second);
-      });
+    result.changes.has_curves |= matching.changes.has_curves;
     for (const int row : matching.split_rows) result.split_rows.push_back(row);
   }
-  for (const ContactPair& pair : scene.contacts)
-    for (std::size_t row = 0; row < changed.boundary.size(); ++row) {
-      BoundaryEdge& edge = changed.boundary[row];
-      if (result.edges[row] || !pair.has(boundary_label(changed, edge))) continue;
-      edge.role = BoundaryRole::force;
-      edge.group = boundary_group(changed, out_of_reach);
-    }
+  check_one_partner(changed, scene, result.edges);
+  std::vector<bool> is_met;
+  for (const std::optional<MatchedEdge>& edge : result.edges) is_met.push_back(edge.has_value());
+  for (const ContactPair& pair : pairs) free_unmet_edges(changed, pair, is_met);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/problem/bonded_faces.hpp"
 #include "assembly/problem/contact_conditions.hpp"
 #include "assembly/problem/held_points.hpp"
 #include "assembly/problem/load_scale.hpp"
@@ -319,8 +320,9 @@ ReachableContact contact_of(const Scene& scene, Mesh mesh) {
   mesh = of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
   check_groups(scene, mesh);
   check_keys_of_walls(scene, mesh);
-  MatchedFaces faces =
-      of_scene(scene, "", [&] { return with_matched_faces(std::move(mesh), scene); });
+  MatchedFaces faces = of_scene(scene, "", [&] {
+    return with_matched_faces(with_bonded_faces(std::move(mesh), scene), scene);
+  });
   check_faces(scene);
   return of_scene(scene, "boundary",
                   [&] { return with_reachable_contact(std::move(faces), scene); });

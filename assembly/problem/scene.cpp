@@ -42,6 +42,8 @@ void check_clearance(const Scene& scene, const std::string& prefix, const Contac
 
 void check_contacts(const Scene& scene) {
   for (const ContactPair& pair : scene.contacts) {
+    if (pair.is_bonded() && (pair.friction || pair.clearance_mm))
+      fail(scene, "contacts", names_of(pair), "bonded (allowed: without friction, clearance_mm)");
     if (pair.friction) check_friction(scene, "contacts: friction", *pair.friction);
     check_clearance(scene, "", pair);
   }
@@ -68,10 +70,11 @@ void check_contacts_of_step(const Scene& scene, std::size_t k) {
     if (std::ranges::count(contacts, pair.between, &ContactPair::between) > 1)
       fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
            "twice (allowed: every pair once)");
-    if (std::ranges::count(scene.contacts, pair.between, &ContactPair::between) == 0)
+    const auto own = std::ranges::find(scene.contacts, pair.between, &ContactPair::between);
+    if (own == scene.contacts.end() || own->is_bonded())
       fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
-           "(allowed: as in contacts of the scene)");
-    if (pair.friction || !pair.clearance_mm)
+           "(allowed: as in contacts of the scene, not bonded)");
+    if (pair.friction || !pair.clearance_mm || pair.is_bonded())
       fail(scene, step_prefix(k) + "contacts", names_of(pair),
            "(allowed: clearance_mm, and no friction)");
     check_clearance(scene, step_prefix(k), pair);

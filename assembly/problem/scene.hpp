@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -17,11 +18,13 @@
 
 namespace airybench {
 
-// Two faces of different bodies that press on each other (matched_faces.hpp).
+// Two faces that press on each other (matched_faces.hpp), or are one (bonded_faces.hpp).
 struct ContactPair {
+  enum class Law : std::uint8_t { contact, bonded };
   std::array<std::vector<std::string>, 2> between;  // labels of each face's groups
   std::optional<double> friction = {};              // none: the scene's
   std::optional<double> clearance_mm = {};          // added to the gap, none: 0; < 0: interference
+  std::optional<Law> law = {};                      // none: contact; bonded: without these two
 
   bool has_first(const std::string& label) const {
     return std::ranges::count(between[0], label) > 0;
@@ -29,6 +32,7 @@ struct ContactPair {
   bool has(const std::string& label) const {
     return has_first(label) || std::ranges::count(between[1], label) > 0;
   }
+  bool is_bonded() const { return law == Law::bonded; }
 };
 // "contact:a and contact:b", with commas in faces of several groups.
 std::string names_of(const ContactPair& pair);

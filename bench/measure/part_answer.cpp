@@ -279,8 +279,8 @@ class PartReader {
   std::optional<std::string> what_is_singular(int before, int after) const {
     constexpr double degree = std::numbers::pi / 180;
     const Eigen::Vector2d in = direction(before, 1), out = direction(after, 0);
-    const double inside =
-        std::numbers::pi - std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+    const double inside = std::numbers::pi - turning_angle(in, out);
+    if (inside > 359 * degree) return end_of(before, after);
     // Contact opens, sticks and slips within a face where stresses stay finite.
     if (is_contact(before) && is_contact(after) && label(before) == label(after) &&
         std::abs(inside - std::numbers::pi) < degree)

@@ -231,8 +231,10 @@ static KeyTable table(ContactPair& pair) {
       both.push_back(labels.size() == 1 ? Json(labels.front()) : Json(labels));
     return both;
   };
+  using enum ContactPair::Law;
   return {{required({.name = "between", .take = take, .give = give}),
-           key("friction", pair.friction), key("clearance_mm", pair.clearance_mm)}};
+           key("friction", pair.friction), key("clearance_mm", pair.clearance_mm),
+           choice("law", pair.law, {{"contact", contact}, {"bonded", bonded}})}};
 }
 
 static JsonKey pairs(const char* name, std::vector<ContactPair>& contacts) {

@@ -58,7 +58,8 @@ void forget_groups(const std::set<std::string>& of_mesh, BoundaryConditions& bou
       if (labels.size() > 1) std::erase_if(labels, is_gone);
 }
 
-// The scene on the mesh that it made, which has its roles; each layer is a body there.
+// The scene on the mesh that it made, which has its roles; each layer is a body there, and bonded
+// faces are inner edges.
 SceneFile scene_on(const Mesh& mesh, SceneFile file) {
   Scene& scene = file.scene;
   for (std::size_t k = 0; k < mesh.body_names.size() && !scene.layer_materials.empty(); ++k)
@@ -76,6 +77,8 @@ SceneFile scene_on(const Mesh& mesh, SceneFile file) {
   if (!scene.wall) file.keys.insert("crown_radius_mm");  // other bodies have no default
   std::set<std::string> groups;
   for (const BoundaryEdge& edge : mesh.boundary) groups.insert(boundary_label(mesh, edge));
+  std::erase_if(scene.contacts, &ContactPair::is_bonded);
+  if (scene.contacts.empty()) file.keys.erase("contacts");
   forget_groups(groups, scene.boundary, scene.contacts);
   for (LoadStep& step : scene.later_steps) forget_groups(groups, step.boundary, step.contacts);
   return file;

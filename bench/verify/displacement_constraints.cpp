@@ -36,6 +36,7 @@ std::map<int, ContactNode> contact_nodes(const ContactSystem& system, const Curv
     }
     const std::array<double, p + 1> lowered = elevated<p>(problem.wall_detail_at(row).lowered_mm);
     for (int i = 0; i <= p; ++i) {
+      if (partners[i] == nodes[i]) continue;  // the tip of a crack
       // Of two edges at a node either body may have the first row: the difference is the lower
       // node's less the other's.
       const bool is_turned = partners[i] != ContactNode::none && partners[i] < nodes[i];

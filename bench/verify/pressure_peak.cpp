@@ -214,8 +214,7 @@ class Places {
              (slides || sticks(row));
     const Eigen::Vector2d &in = end == 0 ? other.tangent : own_frame(row).tangent,
                           &out = end == 0 ? own_frame(row).tangent : other.tangent;
-    const double turn = std::atan2(cross(in, out), in.dot(out));
-    return slides && std::numbers::pi - turn <= right_angle + straight;
+    return slides && std::numbers::pi - turning_angle(in, out) <= right_angle + straight;
   }
   bool sticks(int row) const {
     for (int i = 0; i < system_.contact.per_edge; ++i)
