@@ -21,8 +21,7 @@ Union unite(Mesh& mesh, const ContactPair& pair, const std::vector<std::array<in
     for (const std::size_t end : {0U, 1U}) {
       const auto& [a, b] = mesh.boundary[row].vertices;
       const double allowed_mm = allowed * (mesh.vertices[b] - mesh.vertices[a]).norm();
-      const int v = mesh.boundary[row].vertices[end],
-                twin = mesh.boundary[other].vertices[1 - end];
+      const int v = mesh.boundary[row].vertices[end], twin = mesh.boundary[other].vertices[1 - end];
       const double apart_mm = (mesh.vertices[v] - mesh.vertices[twin]).norm();
       if (apart_mm > allowed_mm)
         refuse(place_of(pair), "are " + shown(apart_mm) + " mm apart",
