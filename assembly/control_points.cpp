@@ -7,6 +7,7 @@
 
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/free_bodies.hpp"
+#include "assembly/rigid_contact.hpp"
 
 namespace airybench {
 namespace {
@@ -146,6 +147,23 @@ ControlPoints control_points(const Problem& problem) {
 
 ControlPoints control_points(const Problem& problem, int degree) {
   return with_degree(degree - 1, [&](auto k) { return control_points<k + 1>(problem); });
+}
+
+std::string why_no_control_points(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  std::map<int, int> faced;  // per vertex; no_row: a wall
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const int other = problem.opposite_of(row);
+    for (const std::size_t end : {0U, 1U}) {
+      const int v = mesh.boundary[row].vertices[end],
+                w = other == Problem::no_row ? other : mesh.boundary[other].vertices[1 - end];
+      if (faced.try_emplace(v, w).first->second != w)
+        return "a vertex with two partners, at " + words_of_place(mesh.vertices[v]) +
+               ", where these methods have one contact law";
+    }
+  }
+  return "";
 }
 
 Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementField& u) {

@@ -12,6 +12,9 @@
 // gives the friction against it, which the roller bears.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
 
@@ -33,7 +36,10 @@ struct ControlPoints {
 
   Eigen::Matrix2d frame(int point) const { return normal_frame(normal[point]); }
 };
+// Of a problem whose vertices each face one other, or walls.
 ControlPoints control_points(const Problem& problem, int degree = 2);
+// Empty for such a problem.
+std::string why_no_control_points(const Problem& problem);
 
 // u at them, in the rows of their forces; along a roller 0.
 Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementField& u);

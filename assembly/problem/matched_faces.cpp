@@ -110,31 +110,6 @@ class PairedEdges {
   std::set<int> on_rollers_;
 };
 
-// Displacement methods have one contact law at a vertex: it faces one other vertex, or a wall.
-void check_one_partner(const Mesh& mesh, const Scene& scene,
-                       const std::vector<std::optional<MatchedEdge>>& edges) {
-  struct Partner {
-    int vertex, row;  // none: a wall
-  };
-  std::map<int, Partner> partner;
-  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
-    const BoundaryEdge& edge = mesh.boundary[row];
-    const std::string label = boundary_label(mesh, edge);
-    if (edge.role != BoundaryRole::contact || (!edges[row] && is_paired(scene, label))) continue;
-    for (const std::size_t end : {0U, 1U}) {
-      const int v = edge.vertices[end],
-                faced = edges[row] ? mesh.boundary[edges[row]->opposite].vertices[1 - end]
-                                   : Problem::no_row;
-      const auto [found, is_new] = partner.try_emplace(v, Partner{faced, row});
-      if (is_new || found->second.vertex == faced) continue;
-      refuse("contacts: " + boundary_label(mesh, mesh.boundary[found->second.row]),
-             "meets " + label,
-             "at the vertex " + shown(mesh.vertices[v]) +
-                 " (allowed: there the same vertex faces both)");
-    }
-  }
-}
-
 // Faces of a crack: once matched, their vertices are in the same places, not nearly.
 void close_crack(Mesh& mesh, const FaceMatching& matching) {
   constexpr double rounding = 1e-12;  // of the mesh's size
@@ -168,7 +143,6 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
     result.changes.has_curves |= matching.changes.has_curves;
     for (const int row : matching.split_rows) result.split_rows.push_back(row);
   }
-  check_one_partner(changed, scene, result.edges);
   std::vector<bool> is_met;
   for (const std::optional<MatchedEdge>& edge : result.edges) is_met.push_back(edge.has_value());
   for (const ContactPair& pair : pairs) free_unmet_edges(changed, pair, is_met);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "assembly/control_points.hpp"
 #include "assembly/problem/face_matching.hpp"
 
 namespace airybench {
@@ -42,6 +43,8 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
   if (!body->free.motions.empty() && (external || !method.condenses_contact()))
     return "a body that contact or points alone hold: its motion is found by methods of ours that "
            "condense on the contact points";
+  if (method.unknowns == Unknowns::displacements && !body->opposite.empty())
+    return why_no_control_points(*body);
   if (method.unknowns != Unknowns::airy_function) return "";
   const std::string why = why_no_airy_function(*body);
   if (why.empty()) return why;

@@ -10,13 +10,16 @@
 namespace airybench {
 namespace {
 
+// Per node and partner.
+using NodePairs = std::map<std::pair<int, int>, ContactNode>;
+
 template <int k>
-std::map<int, ContactNode> contact_nodes(const ContactSystem& system, const CurvedTraces& traces,
-                                         const Eigen::VectorXd& F_C) {
+NodePairs contact_nodes(const ContactSystem& system, const CurvedTraces& traces,
+                        const Eigen::VectorXd& F_C) {
   constexpr int p = k + 1;
   const Problem& problem = *system.problem;
   const int m = system.contact.components;
-  std::map<int, ContactNode> contact;
+  NodePairs contact;
   for (int point = 0; point < system.contact.count; point += k + 1) {
     const int row = system.contact.boundary[point], other = problem.opposite_of(row);
     if (problem.is_second_of_pair(row)) continue;
@@ -41,8 +44,10 @@ std::map<int, ContactNode> contact_nodes(const ContactSystem& system, const Curv
       // node's less the other's.
       const bool is_turned = partners[i] != ContactNode::none && partners[i] < nodes[i];
       const double sign = is_turned ? -1 : 1;
-      ContactNode& node = contact[is_turned ? partners[i] : nodes[i]];
-      node.partner = is_turned ? nodes[i] : partners[i];
+      const auto [lower, upper] =
+          is_turned ? std::pair(partners[i], nodes[i]) : std::pair(nodes[i], partners[i]);
+      ContactNode& node = contact[{lower, upper}];
+      node.partner = upper;
       const EdgeFrame frame = traces.frame(row, i);
       const Eigen::Vector2d& normal = frame.normal;
       node.walls.push_back(
@@ -106,9 +111,33 @@ void move_along_roller(const Eigen::Vector2d& normal, const ContactNode& node, d
 DisplacementConstraints::DisplacementConstraints(const ContactSystem& system,
                                                  const CurvedTraces& traces,
                                                  const Eigen::VectorXd& F_C)
-    : given_(traces.prescribed()), contact_(with_degree(traces.degree() - 1, [&](auto k) {
-        return contact_nodes<k>(system, traces, F_C);
-      })) {}
+    : given_(traces.prescribed()) {
+  const NodePairs all = with_degree(traces.degree() - 1,
+                                    [&](auto k) { return contact_nodes<k>(system, traces, F_C); });
+  std::map<int, int> partners;  // how many a node has
+  for (const auto& [ends, node] : all)
+    for (const int end : {ends.first, ends.second})
+      if (end != ContactNode::none) ++partners[end];
+  for (const auto& [ends, node] : all) {
+    const bool is_joint =
+        partners[ends.first] > 1 || (ends.second != ContactNode::none && partners[ends.second] > 1);
+    if (!is_joint) {
+      contact_[ends.first] = node;
+      continue;
+    }
+    joints_.emplace_back(ends.first, node);
+    joints_.back().second.force.setZero();
+    joints_.back().second.friction = 0;
+  }
+}
+
+std::vector<int> DisplacementConstraints::joint_nodes() const {
+  std::vector<int> nodes;
+  for (const auto& [node, contact] : joints_)
+    for (const int end : {node, contact.partner})
+      if (end != ContactNode::none) nodes.push_back(end);
+  return nodes;
+}
 
 std::vector<bool> DisplacementConstraints::nodes() const {
   std::vector<bool> nodes = given_.at;
@@ -118,6 +147,7 @@ std::vector<bool> DisplacementConstraints::nodes() const {
     if (contact.partner != ContactNode::none)
       nodes[static_cast<std::size_t>(contact.partner)] = true;
   }
+  for (const int node : joint_nodes()) nodes[static_cast<std::size_t>(node)] = true;
   return nodes;
 }
 
@@ -126,17 +156,23 @@ void DisplacementConstraints::apply(const Eigen::VectorXd& stiffness, Displaceme
     if (given_.at[static_cast<std::size_t>(node)]) w.col(node) = given_.u.col(node);
   for (const auto& [node, n] : given_.normal)
     w.col(node) += given_.u.col(node) - n * n.dot(w.col(node));
-  for (const auto& [number, node] : contact_) {
-    if (node.partner != ContactNode::none) {
-      move_pair(number, node, stiffness, w);
-      continue;
-    }
-    if (given_.at[static_cast<std::size_t>(number)]) continue;
-    if (const auto roller = given_.normal.find(number); roller != given_.normal.end())
-      move_along_roller(roller->second, node, stiffness(number), w.col(number));
-    else
-      w.col(number) = in_contact(node, stiffness(number), w.col(number));
+  for (const auto& [number, node] : contact_) move(number, node, stiffness, w);
+  constexpr int passes = 60;  // of projections on one wall after another
+  for (int pass = 0; pass < passes; ++pass)
+    for (const auto& [number, node] : joints_) move(number, node, stiffness, w);
+}
+
+void DisplacementConstraints::move(int number, const ContactNode& node,
+                                   const Eigen::VectorXd& stiffness, DisplacementField& w) const {
+  if (node.partner != ContactNode::none) {
+    move_pair(number, node, stiffness, w);
+    return;
   }
+  if (given_.at[static_cast<std::size_t>(number)]) return;
+  if (const auto roller = given_.normal.find(number); roller != given_.normal.end())
+    move_along_roller(roller->second, node, stiffness(number), w.col(number));
+  else
+    w.col(number) = in_contact(node, stiffness(number), w.col(number));
 }
 
 // Each takes the part of the change that its stiffness leaves it; along a roller only what takes

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "assembly/contact_system.hpp"
@@ -19,7 +20,7 @@ struct Barrier {
   double excess(const Eigen::Vector2d& w) const { return normal.dot(w) - limit; }
 };
 
-// A node at a wall; or a node of one body and its partner of another, for the difference of their
+// A node at a wall; or a node and its partner on the other face, for the difference of their
 // displacements.
 struct ContactNode {
   static constexpr int none = -1;
@@ -50,18 +51,24 @@ class DisplacementConstraints {
   void apply(const Eigen::VectorXd& stiffness, DisplacementField& w) const;
 
   std::vector<bool> nodes() const;  // those that it acts on
+  // Vertices with more than one partner or wall, where three bodies meet, are only kept behind
+  // these.
+  std::vector<int> joint_nodes() const;
   const PrescribedDisplacement& given() const { return given_; }
-  const std::map<int, ContactNode>& contact() const { return contact_; }
+  const std::map<int, ContactNode>& contact() const { return contact_; }  // without joints
   bool is_given(int node) const {
     return given_.at[static_cast<std::size_t>(node)] || given_.normal.contains(node);
   }
 
  private:
+  void move(int one, const ContactNode& node, const Eigen::VectorXd& stiffness,
+            DisplacementField& w) const;
   void move_pair(int one, const ContactNode& node, const Eigen::VectorXd& stiffness,
                  DisplacementField& w) const;
 
   PrescribedDisplacement given_;
   std::map<int, ContactNode> contact_;
+  std::vector<std::pair<int, ContactNode>> joints_;  // without forces and friction
 };
 
 }  // namespace airybench

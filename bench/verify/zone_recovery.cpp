@@ -40,6 +40,7 @@ class Zone {
       : number_(is_free.size(), -1) {
     for (const auto& [node, contact] : constraints.contact())
       hold(constraints, node, contact, is_free);
+    for (const int node : constraints.joint_nodes()) is_free[node] = false;
     for (std::size_t node = 0; node < is_free.size(); ++node)
       if (is_free[node] && !constraints.given().at[node]) {
         number_[node] = static_cast<int>(nodes_.size());

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "assembly/control_points.hpp"
 #include "bench/verify/verifier.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/pieces.hpp"
@@ -41,7 +42,8 @@ Mesh blocks(const std::array<int, 3>& lower, const std::array<int, 3>& upper) {
       }
       const std::size_t part = (x[i] + x[i + 1]) / 2 < 4 ? 0 : (x[i] + x[i + 1]) / 2 < 8 ? 1 : 2;
       const std::string face = "contact:" + parts[part] + " of " + body;
-      testing::add_edge(mesh, vertex(i, 0), vertex(i + 1, 0), is_upper ? face : "displacement:floor");
+      testing::add_edge(mesh, vertex(i, 0), vertex(i + 1, 0),
+                        is_upper ? face : "displacement:floor");
       testing::add_edge(mesh, vertex(i + 1, ny), vertex(i, ny), is_upper ? "force:top" : face);
     }
     for (int j = 0; j < ny; ++j) {
@@ -57,8 +59,9 @@ Mesh blocks(const std::array<int, 3>& lower, const std::array<int, 3>& upper) {
 }
 
 ContactPair pair(const std::string& part, std::optional<Law> law, double friction = 0) {
-  ContactPair of_part{.between = {{{"contact:" + part + " of block"}, {"contact:" + part + " of base"}}},
-                      .law = law};
+  ContactPair of_part{
+      .between = {{{"contact:" + part + " of block"}, {"contact:" + part + " of base"}}},
+      .law = law};
   if (!law) of_part.friction = friction;
   return of_part;
 }
@@ -68,8 +71,8 @@ Scene on_floor(std::vector<ContactPair> contacts) {
   scene.crown_radius_mm.reset();
   scene.contacts = std::move(contacts);
   scene.displacement_mm = {0, 0};
-  scene.boundary["force:top"].traction_MPa = {{{Vector2d(8, -30), Vector2d(8, -10)},
-                                               {Vector2d(0, 5), Vector2d(12, 5)}}};
+  scene.boundary["force:top"].traction_MPa = {
+      {{Vector2d(8, -30), Vector2d(8, -10)}, {Vector2d(0, 5), Vector2d(12, 5)}}};
   return scene;
 }
 const std::vector<ContactPair> all_bonded = {pair("left", Law::bonded), pair("middle", Law::bonded),
@@ -104,7 +107,8 @@ TEST(BondedFaces, AllMethodsAgreeOnMeshesThatDoNotMatch) {
 
 // A constant stress passes any of the laws: σ_yy = −p, and with friction μ ≥ τ/p also shear.
 TEST(BondedFaces, AConstantStressPassesThreeLawsOnALine) {
-  Scene scene = on_floor({pair("left", Law::bonded), pair("middle", {}, 0.5), pair("right", {}, 2)});
+  Scene scene =
+      on_floor({pair("left", Law::bonded), pair("middle", {}, 0.5), pair("right", {}, 2)});
   scene.boundary["displacement:floor"].support = BoundaryValues::Support::normal;
   scene.boundary["force:top"].traction_MPa = {{{Vector2d(0, -20), Vector2d(0, -20)}}};
   scene.point_supports = {{.at_mm = {0, -6}, .displacement_mm = {0., std::nullopt}}};
@@ -125,9 +129,10 @@ TEST(BondedFaces, AConstantStressPassesThreeLawsOnALine) {
 TEST(BondedFaces, ACrackBetweenThemOpensAndSlips) {
   for (const double pull_MPa : {15., -15.})
     for (const std::array<int, 3>& upper : {std::array{3, 6, 3}, {4, 5, 2}}) {
-      Scene scene =
-          on_floor({pair("left", Law::bonded), pair("middle", {}, 0.3), pair("right", Law::bonded)});
-      scene.boundary["force:top"].traction_MPa = {{{Vector2d(10, pull_MPa), Vector2d(10, pull_MPa)}}};
+      Scene scene = on_floor(
+          {pair("left", Law::bonded), pair("middle", {}, 0.3), pair("right", Law::bonded)});
+      scene.boundary["force:top"].traction_MPa = {
+          {{Vector2d(10, pull_MPa), Vector2d(10, pull_MPa)}}};
       const Mesh mesh = blocks({3, 6, 3}, upper);
       const Solved hybrid(scene, mesh, "HYBRID:k=2");
       const double energy = hybrid.energy();
@@ -146,6 +151,45 @@ TEST(BondedFaces, ACrackBetweenThemOpensAndSlips) {
         EXPECT_NEAR(other.energy(), energy, 0.03 * energy) << name;
       }
     }
+}
+
+// Blocks side by side on a base: one of its vertices has two partners, which face each other.
+TEST(BondedFaces, ThreeBodiesMeetInAPoint) {
+  Mesh mesh;
+  mesh.name = "joint";
+  testing::add_block(mesh, "left base", {0, -6}, {6, 0}, 5, 4,
+                     {"displacement:floor", "contact:seam of left", "contact:left base", "force"});
+  testing::add_block(
+      mesh, "right base", {6, -6}, {12, 0}, 4, 4,
+      {"displacement:floor", "force", "contact:right base", "contact:seam of right"});
+  testing::add_block(mesh, "left", {0, 0}, {6, 5}, 4, 4,
+                     {"contact:left", "contact:left side", "force:top", "force"});
+  testing::add_block(mesh, "right", {6, 0}, {12, 5}, 5, 3,
+                     {"contact:right", "force:push", "force:top", "contact:right side"});
+  validate(mesh);
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  scene.displacement_mm = {0, 0};
+  scene.boundary["force:top"].pressure_MPa = {{{20., 40.}, {Vector2d(0, 5), Vector2d(12, 5)}}};
+  scene.boundary["force:push"].pressure_MPa = {{{10., 10.}}};
+  const auto between = [](const char* one, const char* other) {
+    return ContactPair{.between = {{{one}, {other}}}, .friction = 0.4};
+  };
+  scene.contacts = {
+      between("contact:left", "contact:left base"),
+      between("contact:right", "contact:right base"),
+      between("contact:left side", "contact:right side"),
+      {.between = {{{"contact:seam of left"}, {"contact:seam of right"}}}, .law = Law::bonded}};
+  double before = 1;
+  for (const char* name : {"HYBRID", "HYBRID:k=2", "HYBRID:k=3"}) {
+    const Solved solved(scene, mesh, name);
+    const ConstitutiveError error = solved.recovered_error();
+    EXPECT_TRUE(error.flaw.empty()) << error.flaw;
+    EXPECT_LT(error.relative, 0.7 * before) << name;
+    before = error.relative;
+  }
+  EXPECT_NE(why_no_control_points(pose(scene, mesh)).find("two partners, at (6, 0)"),
+            std::string::npos);
 }
 
 TEST(BondedFaces, AreRefusedWhereTheyAreApart) {
