@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/bench/measure/csv_columns.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
 
@@ -134,6 +135,9 @@ double roller_MPa() { return std::sqrt(roller_N * stiff_MPa / (std::numbers::pi 
 double roller_mm() { return 2 * roller_N / (std::numbers::pi * roller_MPa()); }
 constexpr double block_N = 40 * 20 * 7.7e-5, slope = std::numbers::pi / 12;
 
+// Normal to a crack at 20° to a compression of 100 MPa, in a plate without end.
+double crack_MPa() { return 100 * std::pow(std::sin(std::numbers::pi / 9), 2); }
+
 const std::vector<Known>& known() {
   static const std::vector<Known> list = {
       {"press_fit", "/faces/0/pressure_MPa/value", press_fit_MPa(), 0.01},
@@ -144,6 +148,8 @@ const std::vector<Known>& known() {
       {"slope", "/faces/0/normal_N", -block_N * std::cos(slope), 1e-6},
       {"slope", "/faces/0/force_N/0", 0, 1e-6},
       {"slope", "/faces/0/force_N/1", block_N, 1e-6},
+      {"crack", "/faces/0/pressure_MPa/value", crack_MPa(), 0.002},
+      {"crack", "/faces/0/slipping_mm", 2000, 1e-6},
       {"bracket", "/supports/0/force_N/1", 15, 1e-6},
       {"bracket", "/supports/1/force_N/0", 0, 1e-6},
   };
@@ -162,8 +168,26 @@ TEST_P(SolvedPart, HasWhatIsKnownOfIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, SolvedPart,
-                         ::testing::Values("press_fit", "roller_on_plate", "slope", "bracket"),
+                         ::testing::Values("press_fit", "roller_on_plate", "slope", "bracket",
+                                           "crack"),
                          [](const auto& part) { return std::string(part.param); });
+
+// Its slip, 4 (1 − ν²)/E σ sin ψ (cos ψ − μ sin ψ) b in the middle.
+TEST_F(SolveCommand, ACrackSlipsByTheClosedForm) {
+  const std::string file = (testing::source_folder() / "docs/bodies/crack").string();
+  solved(fmt::format("{0}.geo {0}.json", file));
+  double slip_mm = 0;
+  for (const auto& found : std::filesystem::directory_iterator(bench_.path("o/fields")))
+    if (found.path().string().ends_with(".contact.csv")) {
+      const testing::Columns points = testing::csv_columns(testing::text_of(found.path()));
+      for (const double slip : testing::numbers(points, "slip_mm"))
+        slip_mm = std::max(slip_mm, std::abs(slip));
+    }
+  const double psi = std::numbers::pi / 9, mu = 0.57735;
+  const double known = 4 * (1 - 0.25 * 0.25) / 25000 * 100 * std::sin(psi) *
+                       (std::cos(psi) - mu * std::sin(psi)) * 1000;
+  EXPECT_NEAR(slip_mm, known, 0.005 * known);
+}
 
 // The same plate pulled at both ends: what holds it carries nothing.
 TEST_F(SolveCommand, SingleNodesTakeOutARigidMotion) {
