@@ -36,6 +36,7 @@ constexpr auto read_keywords = std::to_array<ReadKeyword>({
     {"SURFACE BEHAVIOR", "PRESSURE-OVERCLOSURE"},
     {"FRICTION", "", "SLIP TOLERANCE"},
     {"CONTACT PAIR", "INTERACTION,ADJUST", "TYPE,SMALL SLIDING"},
+    {"TIE", "", "NAME,ADJUST,POSITION TOLERANCE,TYPE"},
     {"AMPLITUDE", "NAME,DEFINITION,TIME,VALUE"},
     {"STEP", "NLGEOM,PERTURBATION", "INC,NAME,AMPLITUDE,UNSYMM,EXTRAPOLATION"},
     {"STATIC", "", "DIRECT,SOLVER"},
@@ -94,7 +95,7 @@ constexpr Words<30> idle_keywords = {"OUTPUT",
                                      "CONDUCTIVITY",
                                      "SPECIFIC HEAT",
                                      "SECTION CONTROLS"};
-constexpr std::array<std::pair<std::string_view, std::string_view>, 26> refused_keywords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 25> refused_keywords = {
     {{"PLASTIC", "the material yields"},
      {"CYCLIC HARDENING", "the material yields"},
      {"HYPERELASTIC", "the material is not linear"},
@@ -106,7 +107,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> refused_
      {"TRANSFORM", "axes of nodes' own"},
      {"TEMPERATURE", "thermal strain"},
      {"INITIAL CONDITIONS", "initial stress or temperature"},
-     {"TIE", "bonded faces"},
      {"EQUATION", "coupled displacements"},
      {"MPC", "coupled displacements"},
      {"COUPLING", "coupled displacements"},
@@ -289,19 +289,20 @@ class PropertyReader {
     }
     std::map<std::string, std::string, WithoutCase> place_of;  // faces' pairs
     for (const DeckBlock& block : deck_.file.blocks) {
-      if (block.keyword != "CONTACT PAIR") continue;
-      const auto known = friction.find(block.value("INTERACTION"));
-      if (known == friction.end())
+      const bool is_tied = block.keyword == "TIE";
+      if (!is_tied && block.keyword != "CONTACT PAIR") continue;
+      const auto known = friction.find(is_tied ? "" : block.value("INTERACTION"));
+      if (!is_tied && known == friction.end())
         block.line.fail(fmt::format("INTERACTION={}: no such *SURFACE INTERACTION",
                                     block.value("INTERACTION")));
-      if (block.has("ADJUST"))
+      if (!is_tied && block.has("ADJUST"))
         properties_.notes.push_back(fmt::format(
             "{}: ADJUST is not used: the gap is that of the coordinates", block.line.place));
       for (const DeckLine& line : block.data) {
         const std::vector<std::string> names = line.fields();
         if (names.size() < 2 || names[1].empty() || in_capitals(names[0]) == in_capitals(names[1]))
-          line.fail("*CONTACT PAIR (allowed: two surfaces)");
-        DeckPair pair{{}, known->second};
+          line.fail(fmt::format("*{} (allowed: two surfaces)", block.keyword));
+        DeckPair pair{{}, is_tied ? std::nullopt : std::optional(known->second)};
         for (std::size_t side = 0; side < 2; ++side) {
           pair.faces[side] = deck_.face(deck_.full_name(names[side], block), line);
           if (!place_of.emplace(pair.faces[side], line.place).second)
@@ -322,7 +323,7 @@ class PropertyReader {
 
 bool is_analysis(const Deck& deck) {
   return std::ranges::any_of(deck.file.blocks, [](const DeckBlock& block) {
-    return contains(Words<5>{"MATERIAL", "BOUNDARY", "STEP", "CONTACT PAIR", "DLOAD"},
+    return contains(Words<6>{"MATERIAL", "BOUNDARY", "STEP", "CONTACT PAIR", "TIE", "DLOAD"},
                     block.keyword);
   });
 }

@@ -17,7 +17,7 @@ struct DeckMaterial {
 };
 struct DeckPair {
   std::array<std::string, 2> faces;  // as in Deck::names
-  double friction;
+  std::optional<double> friction;    // none: tied
 };
 
 struct DeckProperties {

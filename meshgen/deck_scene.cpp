@@ -369,10 +369,14 @@ class SceneReader {
     }
     if (!boundary.empty()) scene["boundary"] = boundary;
     if (!points_.empty()) scene["point_supports"] = points();
-    for (const DeckPair& pair : properties_.pairs)
-      scene["contacts"].push_back(
-          {{"between", {"contact:" + pair.faces[0], "contact:" + pair.faces[1]}},
-           {"friction", pair.friction}});
+    for (const DeckPair& pair : properties_.pairs) {
+      Json both = {{"between", {"contact:" + pair.faces[0], "contact:" + pair.faces[1]}}};
+      if (pair.friction)
+        both["friction"] = *pair.friction;
+      else
+        both["law"] = "bonded";
+      scene["contacts"].push_back(std::move(both));
+    }
     for (std::size_t step = 1; step < states_.size(); ++step) {
       Json change = Json::object();
       for (const auto& [label, edge] : example_)

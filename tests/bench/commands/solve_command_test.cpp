@@ -248,7 +248,6 @@ TEST_F(SolveCommand, DecksOfOtherProblemsAreRefused) {
   for (const auto& [name, why] :
        {std::pair("axisymmetric", "elements of type CAX4: an axisymmetric"),
         {"plastic", "*PLASTIC: the material yields"},
-        {"tied", "*TIE: bonded faces"},
         {"large", "*STEP, NLGEOM"}})
     bench_.expect_refusal("solve " + deck(name) + " --out=o", why);
   EXPECT_FALSE(std::filesystem::exists(bench_.path("o")));
