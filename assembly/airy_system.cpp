@@ -111,11 +111,12 @@ void build_constraints(AirySystem& system) {
   if (loads.has_body_force()) system.F0 = on_contact.forces();
 }
 
-// q_i = ∫_{Γ_D} u0·σ(φ_i)n − ∫ σ(φ_i):C:σ_p.
+// q_i = ∫_{Γ_D} u0·σ(φ_i)n − ∫ σ(φ_i):(C:σ_p + ε0).
 void build_load(AirySystem& system) {
   const Problem& problem = *system.problem;
   const Loads& loads = problem.loads;
-  if (!loads.displacement_mm && !loads.has_body_force()) return;
+  const bool loaded = loads.has_body_force() || !loads.thermal.empty();
+  if (!loads.displacement_mm && !loaded) return;
   system.q = Eigen::VectorXd::Zero(system.dofs.count);
 
   if (loads.displacement_mm) {
@@ -126,12 +127,15 @@ void build_load(AirySystem& system) {
           system.q(edge.dofs[k]) += u.dot(edge.forces.col(k));
     });
   }
-  if (loads.has_body_force()) {
+  if (loaded) {
     for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
       const TriangleVertices v = problem.vertices_of(t);
       const HctStress stress = hct_stress(v, problem.edge_signs(t));
-      const ElementStress dual = stress_dual(particular_element_stress(problem, t),
-                                             problem.area_mm2(t), problem.compliance_of(t));
+      ElementStress dual = ElementStress::Zero();
+      if (loads.has_body_force())
+        dual += stress_dual(particular_element_stress(problem, t), problem.area_mm2(t),
+                            problem.compliance_of(t));
+      if (problem.is_warm(t)) dual += thermal_dual<double>(problem, t);
       const Eigen::Matrix<double, 12, 1> load = stress.transpose().lazyProduct(dual.reshaped());
       const auto dofs = system.dofs.of_triangle(problem, t);
       for (int k = 0; k < 12; ++k)

@@ -148,7 +148,49 @@ DisplacementField with_motion(const Problem& problem, DisplacementField w, const
   return w;
 }
 
+Eigen::Matrix3Xd thermal_stress(const Problem& problem, int triangle, int k) {
+  const Eigen::Vector3d of_one =
+      elasticity_of(problem.compliance_of(triangle)) * Eigen::Vector3d(1, 1, 0);
+  const TriangleVertices v = problem.vertices_of(triangle);
+  Eigen::Matrix3Xd stress(3, bernstein_count(k));
+  for (int c = 0; c <= k; ++c)
+    for (int b = 0; b <= k - c; ++b)
+      stress.col(ring_place(k, b, c)) =
+          problem.thermal_of(triangle).at(v * Eigen::Vector3d(k - b - c, b, c) / k) * of_one;
+  return stress;
+}
+
+namespace {
+
+// Adds σ*, times a factor, to warm triangles.
+void add_thermal_stress(const Problem& problem, double factor, StressField& field) {
+  const auto& element = DisplacementTriangle::of_degree(field.degree() + 1);
+  for (int t = 0; t < static_cast<int>(field.size()); ++t)
+    if (problem.is_warm(t))
+      field[t] +=
+          factor * thermal_stress(problem, t, field.degree()).lazyProduct(element.on_thirds);
+}
+
+}  // namespace
+
+double thermal_work(const Problem& problem, const StressField& stress) {
+  if (problem.loads.thermal.empty()) return 0;
+  StressField thermal(stress.size(), stress.degree());
+  thermal.values().setZero();
+  add_thermal_stress(problem, 1, thermal);
+  double work = 0;
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    if (problem.is_warm(t)) work += stress_product(problem, t, stress, thermal);
+  return work;
+}
+
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {
+  StressField field = stress_of_strain(problem, u);
+  add_thermal_stress(problem, -1, field);
+  return field;
+}
+
+StressField stress_of_strain(const Problem& problem, const DisplacementField& u) {
   const auto& element = DisplacementTriangle::of_degree(displacement_degree(problem, u));
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   StressField field(problem.mesh.triangles.size(), element.degree - 1);
@@ -181,6 +223,13 @@ NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
     for (int m = 0; m < element.nodes; ++m) forces.sum.col(nodes[m]) += force.col(m);
   }
   return forces;
+}
+
+Eigen::Matrix2Xd thermal_forces(const Problem& problem, int degree) {
+  StressField thermal(problem.mesh.triangles.size(), degree - 1);
+  thermal.values().setZero();
+  add_thermal_stress(problem, 1, thermal);
+  return nodal_forces(problem, thermal).sum;
 }
 
 Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {

@@ -58,8 +58,15 @@ Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u,
 using Motion = std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int vertex)>;
 DisplacementField with_motion(const Problem& problem, DisplacementField w, const Motion& motion);
 
-// A ε(u), MPa, of degree p − 1.
+// σ* = A ε0 of a triangle's thermal strain, MPa: Bernstein coefficients of degree k on all of it,
+// as of DisplacementTriangle::strain().
+Eigen::Matrix3Xd thermal_stress(const Problem& problem, int triangle, int k);
+// ∫ σ : ε0, N mm.
+double thermal_work(const Problem& problem, const StressField& stress);
+
+// A (ε(u) − ε0), MPa, of degree p − 1; and A ε(u).
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u);
+StressField stress_of_strain(const Problem& problem, const DisplacementField& u);
 
 // Per node of displacements of one degree more than the stresses' ∫ σ:ε(u_i), N; a triangle's
 // largest contribution.
@@ -68,6 +75,8 @@ struct NodalForces {
   double largest = 0;
 };
 NodalForces nodal_forces(const Problem& problem, const StressField& stress);
+// Those of σ*, of displacements of a degree.
+Eigen::Matrix2Xd thermal_forces(const Problem& problem, int degree);
 
 // ∫ b B_i + ∫_{Γ_F} f B_i, N: the work partners of the coefficients.
 Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree = 2);

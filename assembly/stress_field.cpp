@@ -51,6 +51,23 @@ ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
   return dual;
 }
 
+template <typename Scalar>
+ElementStressIn<Scalar> thermal_dual(const Problem& problem, int triangle) {
+  const TriangleVertices v = problem.vertices_of(triangle);
+  const auto at = [&](const Eigen::Vector2d& x) {
+    const ThermalStrain& thermal = problem.thermal_of(triangle);
+    const Scalar e =
+        Scalar(thermal.at_origin) + thermal.slope_per_mm.cast<Scalar>().dot(x.cast<Scalar>());
+    return Eigen::Vector3<Scalar>(e, e, Scalar(0));
+  };
+  const Eigen::Vector3<Scalar> centre = (at(v.col(0)) + at(v.col(1)) + at(v.col(2))) / Scalar(3);
+  ElementStressIn<Scalar> strain;
+  for (int t = 0; t < 3; ++t)
+    strain.template middleCols<3>(3 * t) << at(v.col(t)), at(v.col((t + 1) % 3)), centre;
+  return stress_dual<Scalar>(strain, problem.area_mm2<Scalar>(triangle),
+                             Eigen::Matrix3d::Identity());
+}
+
 StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorXd& phi) {
   const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
   StressField field(problem.mesh.triangles.size());
@@ -162,6 +179,7 @@ ForcesOnEdge curved_edge_forces(const TriangleVertices& v, const StressCoefficie
 }
 
 template ElementStressIn<double> particular_element_stress(const Problem&, int);
+template ElementStressIn<double> thermal_dual(const Problem&, int);
 template ElementStressIn<double> stress_dual(const ElementStressIn<double>&, double,
                                              const Eigen::Matrix3d&);
 template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
@@ -169,6 +187,7 @@ template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
 template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
                                    Eigen::Matrix<Wide, 12, 1>&);
 template ElementStressIn<Wide> particular_element_stress(const Problem&, int);
+template ElementStressIn<Wide> thermal_dual(const Problem&, int);
 template ElementStressIn<Wide> stress_dual(const ElementStressIn<Wide>&, Wide,
                                            const Eigen::Matrix3d&);
 

@@ -73,6 +73,10 @@ ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
                                     std::type_identity_t<Scalar> area_mm2,
                                     const Eigen::Matrix3<Data<Scalar>>& compliance);
 
+// The same with ∫ ε0 : τ, of thermal strain.
+template <typename Scalar>
+ElementStressIn<Scalar> thermal_dual(const Problem& problem, int triangle);
+
 // ∫ σ : C : τ over a triangle, 1 mm thick, N mm, of fields of one degree, or of their coefficients
 // there. Where stresses of the degree follow curves (Problem::round), up to these.
 using StressCoefficients = Eigen::Ref<const Eigen::Matrix3Xd>;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace airybench {
 
@@ -17,6 +18,7 @@ enum class Plane { strain, stress };
 struct Material {
   double young_MPa = 210000;
   double poisson = 0.3;
+  std::optional<double> expansion_per_K = {};  // none: 0
 };
 
 inline Eigen::Matrix3d compliance(const Material& material, Plane plane) {

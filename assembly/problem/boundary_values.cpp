@@ -7,7 +7,6 @@
 #include <set>
 
 #include "assembly/elements/edge_forces.hpp"
-#include "assembly/problem/magnitudes.hpp"
 #include "mesh/transform_error.hpp"
 #include "support/lists.hpp"
 
@@ -16,19 +15,6 @@ namespace {
 
 bool is_zero(double value) { return value == 0; }
 bool is_zero(const Eigen::Vector2d& value) { return value.isZero(0); }
-
-template <typename Value>
-void check(const std::string& key, const std::optional<LinearValue<Value>>& given,
-           const Magnitude& magnitude) {
-  if (!given) return;
-  for (const Value& value : given->values)
-    if (!magnitude.has(value)) refuse(key, shown(value), magnitude.allowed);
-  for (const Eigen::Vector2d& point : given->at_mm)
-    if (!length_magnitude.has(point))
-      refuse(key + ": at_mm", shown(point), length_magnitude.allowed);
-  if ((given->at_mm[1] - given->at_mm[0]).squaredNorm() == 0)
-    refuse(key + ": at_mm", shown(given->at_mm[0]), "twice (allowed: two different points)");
-}
 
 template <typename Value>
 bool acts(const std::optional<LinearValue<Value>>& given) {
@@ -112,6 +98,22 @@ void check_agreement(const Mesh& mesh, const std::vector<BoundaryValues>& of_row
 }
 
 }  // namespace
+
+template <typename Value>
+void check(const std::string& key, const std::optional<LinearValue<Value>>& given,
+           const Magnitude& magnitude) {
+  if (!given) return;
+  for (const Value& value : given->values)
+    if (!magnitude.has(value)) refuse(key, shown(value), magnitude.allowed);
+  for (const Eigen::Vector2d& point : given->at_mm)
+    if (!length_magnitude.has(point))
+      refuse(key + ": at_mm", shown(point), length_magnitude.allowed);
+  if ((given->at_mm[1] - given->at_mm[0]).squaredNorm() == 0)
+    refuse(key + ": at_mm", shown(given->at_mm[0]), "twice (allowed: two different points)");
+}
+
+template void check(const std::string&, const std::optional<LinearValue<double>>&,
+                    const Magnitude&);
 
 void check_values(const BoundaryConditions& conditions) {
   for (const auto& [label, given] : conditions) {

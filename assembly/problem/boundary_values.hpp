@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "assembly/problem/magnitudes.hpp"
 #include "assembly/problem/problem.hpp"
 #include "assembly/problem/wall.hpp"
 
@@ -49,6 +50,11 @@ using BoundaryConditions = std::map<std::string, BoundaryValues>;
 // Refuses what is impossible on any mesh: non-finite numbers, two equal points, a key that the
 // label's role does not have, traction and pressure together.
 void check_values(const BoundaryConditions& conditions);
+
+// Refuses what is impossible of one value, by its key.
+template <typename Value>
+void check(const std::string& key, const std::optional<LinearValue<Value>>& given,
+           const Magnitude& magnitude);
 
 // Refuses groups that the mesh lacks.
 void check_labels(const BoundaryConditions& conditions, const Mesh& mesh);

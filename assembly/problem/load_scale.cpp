@@ -36,11 +36,15 @@ LoadScale load_scale(const Problem& problem) {
   LoadScale scale;
   if (!problem.opposite.empty()) scale.rounding = 1e-11;
   double energy = 0;
+  double strain = displacement / diameter;
+  if (!loads.thermal.empty())
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+      for (const int v : mesh.triangles[t])
+        strain = std::max(strain, std::abs(problem.thermal_of(t).at(mesh.vertices[v])));
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     const double c = problem.compliance_of(t)(0, 0);
-    energy +=
-        problem.area_mm2(t) * (std::pow(displacement / diameter, 2) / c + c * stress * stress);
-    scale.force_N = std::max(scale.force_N, displacement / c + stress * diameter);
+    energy += problem.area_mm2(t) * (strain * strain / c + c * stress * stress);
+    scale.force_N = std::max(scale.force_N, strain * diameter / c + stress * diameter);
   }
   scale.energy_norm = std::sqrt(energy);
   return scale;

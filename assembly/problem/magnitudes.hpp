@@ -16,6 +16,7 @@ struct Magnitude {
 
 inline constexpr Magnitude length_magnitude = {1e15, "(allowed: -1e15 to 1e15 mm)"},
                            stress_magnitude = {1e30, "(allowed: -1e30 to 1e30 MPa)"},
-                           body_force_magnitude = {1e30, "(allowed: -1e30 to 1e30 N/mm³)"};
+                           body_force_magnitude = {1e30, "(allowed: -1e30 to 1e30 N/mm³)"},
+                           temperature_magnitude = {1e6, "(allowed: -1e6 to 1e6 K)"};
 
 }  // namespace airybench

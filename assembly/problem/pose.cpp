@@ -193,13 +193,17 @@ void check_scale(const Scene& scene, Problem& problem) {
   }
 }
 
+void check_body(const Scene& scene, const std::string& key, const std::string& body,
+                const Mesh& mesh) {
+  if (std::ranges::count(mesh.body_names, body) == 0)
+    fail(scene, key, body,
+         "is no body of the mesh " + mesh.name + perhaps(body, mesh.body_names) +
+             " (its bodies: " + joined(mesh.body_names) + ")");
+}
+
 // Per body.
 std::vector<Material> materials(const Scene& scene, const Mesh& mesh) {
-  for (const auto& [body, material] : scene.materials)
-    if (std::ranges::count(mesh.body_names, body) == 0)
-      fail(scene, "materials", body,
-           "is no body of the mesh " + mesh.name + perhaps(body, mesh.body_names) +
-               " (its bodies: " + joined(mesh.body_names) + ")");
+  for (const auto& [body, material] : scene.materials) check_body(scene, "materials", body, mesh);
   std::vector<Material> result;
   for (std::size_t k = 0; k < mesh.body_names.size(); ++k) {
     const auto own = scene.materials.find(mesh.body_names[k]);
@@ -215,6 +219,8 @@ void change(Scene& scene, const LoadStep& step) {
   if (step.displacement_mm) scene.displacement_mm = *step.displacement_mm;
   if (step.body_force_N_per_mm3) scene.body_force_N_per_mm3 = *step.body_force_N_per_mm3;
   if (step.clearance_mm) scene.clearance_mm = *step.clearance_mm;
+  for (const auto& [body, temperature] : step.temperature_K)
+    scene.temperature_K[body] = temperature;
   for (const auto& [label, values] : step.boundary) {
     BoundaryValues& own = scene.boundary[label];
     if (values.traction_MPa || values.pressure_MPa) {
@@ -248,12 +254,42 @@ Scene part_of(Scene scene, double part) {
   for (PointSupport& point : scene.point_supports)
     for (std::optional<double>& displacement : point.displacement_mm)
       if (displacement) *displacement *= part;
+  for (auto& [body, temperature] : scene.temperature_K)
+    for (double& at : temperature.values) at *= part;
   for (auto& [label, values] : scene.boundary) {
     scale(values.traction_MPa, part);
     scale(values.pressure_MPa, part);
     scale(values.displacement_mm, part);
   }
   return scene;
+}
+
+// Per body.
+std::vector<ThermalStrain> thermal_strains(const Scene& scene, const std::string& prefix,
+                                           const Mesh& mesh) {
+  std::vector<ThermalStrain> strains;
+  if (scene.temperature_K.empty()) return strains;
+  for (const auto& [body, temperature] : scene.temperature_K)
+    check_body(scene, prefix + "temperature_K", body, mesh);
+  const std::vector<Material> of_body = materials(scene, mesh);
+  for (std::size_t k = 0; k < of_body.size(); ++k) {
+    ThermalStrain& strain = strains.emplace_back();
+    const auto given = scene.temperature_K.find(mesh.body_names[k]);
+    if (given == scene.temperature_K.end()) continue;
+    const Material& material = of_body[k];
+    if (!material.expansion_per_K)
+      fail(scene, prefix + "temperature_K", mesh.body_names[k],
+           "whose material has no expansion_per_K (allowed: with one)");
+    const bool is_plane_strain = scene.plane == Plane::strain;
+    const double expansion =
+        *material.expansion_per_K * (is_plane_strain ? 1 + material.poisson : 1);
+    const LinearValue<double>& at = given->second;
+    const Eigen::Vector2d along = at.at_mm[1] - at.at_mm[0];
+    strain.slope_per_mm = expansion * (at.values[1] - at.values[0]) / along.squaredNorm() * along;
+    strain.at_origin = expansion * at.at({0, 0});
+    if (is_plane_strain) strain.modulus_zz_MPa = material.young_MPa / (1 + material.poisson);
+  }
+  return strains;
 }
 
 Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh,
@@ -263,6 +299,7 @@ Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh,
   of_scene(scene, prefix + "boundary",
            [&] { apply(scene.boundary, scene.displacement_mm, mesh, loads); });
   loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
+  loads.thermal = thermal_strains(scene, prefix, mesh);
   loads.gap_mm = gap.gap_mm;
   loads.wall_detail = gap.detail;
   return loads;

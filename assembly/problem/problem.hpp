@@ -1,11 +1,11 @@
 // The contact problem on a mesh, in physical terms, before any choice of unknowns.
 //
-//   −div σ = b,  ε(u) = C σ in Ω;   u = u0 on Γ_D;   σn = f on Γ_F;
+//   −div σ = b,  ε(u) = C σ + ε0 in Ω;   u = u0 on Γ_D;   σn = f on Γ_F;
 //   on Γ_C, with gap g0 along the outward normal and the solution's own σ_n as threshold:
 //     σ_n ≤ 0,  u_n ≤ g0,  σ_n (u_n − g0) = 0;   |σ_t| ≤ −μ σ_n, sliding only at equality, opposed.
 // Where two bodies face each other u is the sum of both sides' displacements, each in its own frame
 // (n, t), g0 that of their gaps, and σ_n, σ_t are the same on both.
-// Parts of Γ_D may be rollers: u_n = n·u0, σ_t = 0.
+// Parts of Γ_D may be rollers: u_n = n·u0, σ_t = 0. ε0: thermal_strain.hpp.
 //
 // The rigid motion ρ nearest to u0 is taken out: the unknown is w = u − ρ, with u0 − ρ on Γ_D; on
 // Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (ContactOffset). Energies are those of
@@ -33,6 +33,7 @@
 #include "assembly/elements/stress_degrees.hpp"
 #include "assembly/problem/free_motions.hpp"
 #include "assembly/problem/rigid_motion.hpp"
+#include "assembly/problem/thermal_strain.hpp"
 #include "assembly/problem/wall_gap.hpp"
 #include "mesh/mesh.hpp"
 
@@ -56,6 +57,7 @@ struct Loads {
   // end; empty: zero.
   Eigen::MatrixXd slid_mm;
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};  // b, constant
+  std::vector<ThermalStrain> thermal;             // per row of Mesh::body_names; empty: none
 
   bool has_body_force() const { return !body_force_N_per_mm3.isZero(0); }
 };
@@ -166,6 +168,13 @@ struct Problem {
     return cross_area<Scalar>(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
   }
   EdgeSigns edge_signs(int triangle) const;  // see hct.hpp
+
+  const ThermalStrain& thermal_of(int triangle) const {  // where there is any
+    return loads.thermal[static_cast<std::size_t>(mesh.triangle_body[triangle])];
+  }
+  bool is_warm(int triangle) const {
+    return !loads.thermal.empty() && !thermal_of(triangle).is_zero();
+  }
 
   // Per side of a triangle points of the curve that stresses of a degree follow; none:
   // straight sides only.

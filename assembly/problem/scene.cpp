@@ -15,6 +15,8 @@ void check_material(const Scene& scene, const std::string& prefix, const Materia
   if (!(material.poisson > -1 && material.poisson < 0.5))
     fail(scene, prefix + "poisson", material.poisson,
          "(allowed: between -1 and 0.5, both excluded)");
+  if (const double expansion = material.expansion_per_K.value_or(0); !(std::abs(expansion) <= 1))
+    fail(scene, prefix + "expansion_per_K", expansion, "(allowed: -1 to 1)");
 }
 
 void check_friction(const Scene& scene, const std::string& key, double friction) {
@@ -23,9 +25,13 @@ void check_friction(const Scene& scene, const std::string& key, double friction)
 }
 
 void check_loads(const Scene& scene, const std::string& prefix, const BoundaryConditions& boundary,
-                 double clearance_mm, const Eigen::Vector2d& displacement_mm,
+                 const Temperatures& temperature_K, double clearance_mm,
+                 const Eigen::Vector2d& displacement_mm,
                  const Eigen::Vector2d& body_force_N_per_mm3) {
   of_scene(scene, prefix + "boundary", [&] { check_values(boundary); });
+  for (const auto& [body, temperature] : temperature_K)
+    of_scene(scene, prefix + "temperature_K",
+             [&] { check(body, std::optional(temperature), temperature_magnitude); });
   if (!(clearance_mm >= 0 && length_magnitude.has(clearance_mm)))
     fail(scene, prefix + "clearance_mm", clearance_mm, "(allowed: 0 to 1e15 mm)");
   if (!length_magnitude.has(displacement_mm))
@@ -89,7 +95,8 @@ void check_steps(const Scene& scene) {
     fail(scene, "load_steps", scene.equal_steps, "and a list (allowed: one of them)");
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
     const LoadStep& step = scene.later_steps[k];
-    check_loads(scene, step_prefix(k), step.boundary, step.clearance_mm.value_or(0),
+    check_loads(scene, step_prefix(k), step.boundary, step.temperature_K,
+                step.clearance_mm.value_or(0),
                 step.displacement_mm.value_or(Eigen::Vector2d::Zero()),
                 step.body_force_N_per_mm3.value_or(Eigen::Vector2d::Zero()));
     for (const auto& [label, values] : step.boundary) {
@@ -142,8 +149,8 @@ void check_values(const Scene& scene) {
           point.displacement_mm[1].value_or(0)})
       if (!std::isfinite(number))
         fail(scene, "point_supports", number, "(allowed: finite numbers)");
-  check_loads(scene, "", scene.boundary, scene.clearance_mm, scene.displacement_mm,
-              scene.body_force_N_per_mm3);
+  check_loads(scene, "", scene.boundary, scene.temperature_K, scene.clearance_mm,
+              scene.displacement_mm, scene.body_force_N_per_mm3);
   check_steps(scene);
 }
 

@@ -37,10 +37,14 @@ struct ContactPair {
 // "contact:a and contact:b", with commas in faces of several groups.
 std::string names_of(const ContactPair& pair);
 
+// Per body, above that of the state without stress; of others zero.
+using Temperatures = std::map<std::string, LinearValue<double>>;
+
 // Changes from the previous load step; the rest stays.
 struct LoadStep {
   std::optional<Eigen::Vector2d> displacement_mm, body_force_N_per_mm3;
   std::optional<double> clearance_mm;
+  Temperatures temperature_K = {};         // of these bodies
   BoundaryConditions boundary;             // of these groups; supports stay
   std::vector<ContactPair> contacts = {};  // pairs of the scene with another clearance
 };
@@ -73,9 +77,10 @@ struct Scene {
   std::vector<PointSupport> point_supports = {};    // take out rigid motions that are left free
   std::vector<ContactPair> contacts = {};           // their groups meet no wall
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};
+  Temperatures temperature_K = {};
 
-  // A path: displacements, tractions and body force in this many equal parts (the gap stays), or
-  // further steps after the loads above. Not both.
+  // A path: displacements, tractions, body force and temperatures in this many equal parts (the gap
+  // stays), or further steps after the loads above. Not both.
   int equal_steps = 1;
   std::vector<LoadStep> later_steps = {};
 };

@@ -156,9 +156,8 @@ std::string vtu_of_body(const Problem& problem, const StressField& stress,
         grid.points.emplace_back(third.at_mm.col(at));
         stresses.insert(stresses.end(), s.begin(), s.end());
         if (!problem.poisson_zz.empty()) {
-          const double poisson = problem.poisson_zz[problem.mesh.triangle_body[t]];
-          across.push_back(poisson * (s(0) + s(1)));
-          equivalent.push_back(von_mises(s, poisson));
+          across.push_back(stress_zz(problem, t, grid.points.back(), s));
+          equivalent.push_back(von_mises(s, across.back()));
           for (const double value : principal_stresses(s)) principal.push_back(value);
         }
         if (u) displacements.push_back(displacement_at(problem, *u, t, third.lambda.col(at)));

@@ -224,7 +224,8 @@ class PartReader {
         for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i) {
           const Eigen::Vector3d s = third.stress.col(i);
           const Eigen::Vector2d principal = principal_stresses(s);
-          visit(t, Eigen::Vector2d(third.at_mm.col(i)), von_mises(problem_, t, s),
+          const Eigen::Vector2d x = third.at_mm.col(i);
+          visit(t, x, von_mises(problem_, t, x, s),
                 std::abs(principal(0)) >= std::abs(principal(1)) ? principal(0) : principal(1));
         }
       }
@@ -377,12 +378,21 @@ std::optional<StressDoubt> stress_doubt(const SolvedFields& fields) {
   return PartReader(fields).stress_doubt(fields.w);
 }
 
-double von_mises(const Problem& problem, int triangle, const Eigen::Vector3d& stress) {
+double stress_zz(const Problem& problem, int triangle, const Eigen::Vector2d& x,
+                 const Eigen::Vector3d& stress) {
   const std::vector<double>& poisson = problem.poisson_zz;
-  return von_mises(stress, poisson.empty() ? 0 : poisson[problem.mesh.triangle_body[triangle]]);
+  double zz = 0;
+  if (!poisson.empty())
+    zz += poisson[problem.mesh.triangle_body[triangle]] * stress.head<2>().sum();
+  if (problem.is_warm(triangle))
+    zz -= problem.thermal_of(triangle).modulus_zz_MPa * problem.thermal_of(triangle).at(x);
+  return zz;
 }
-double von_mises(const Eigen::Vector3d& s, double poisson_zz) {
-  const double zz = poisson_zz * (s(0) + s(1));
+double von_mises(const Problem& problem, int triangle, const Eigen::Vector2d& x,
+                 const Eigen::Vector3d& stress) {
+  return von_mises(stress, stress_zz(problem, triangle, x, stress));
+}
+double von_mises(const Eigen::Vector3d& s, double zz) {
   return std::sqrt(
       ((s(0) - s(1)) * (s(0) - s(1)) + (s(1) - zz) * (s(1) - zz) + (zz - s(0)) * (zz - s(0))) / 2 +
       3 * s(2) * s(2));

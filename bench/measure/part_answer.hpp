@@ -75,9 +75,13 @@ std::optional<StressDoubt> stress_doubt(const SolvedFields& fields);
 
 Json to_json(const PartAnswer& answer);
 
-// √(σ:σ 3/2 − …) of (xx, yy, xy) and σ_zz = ν (σ_xx + σ_yy).
-double von_mises(const Eigen::Vector3d& stress, double poisson_zz);
-double von_mises(const Problem& problem, int triangle, const Eigen::Vector3d& stress);
+// √(σ:σ 3/2 − …) of (xx, yy, xy) and σ_zz.
+double von_mises(const Eigen::Vector3d& stress, double stress_zz);
+// At x in a triangle: σ_zz = ν (σ_xx + σ_yy), less that of thermal strain; 0 in plane stress.
+double stress_zz(const Problem& problem, int triangle, const Eigen::Vector2d& x,
+                 const Eigen::Vector3d& stress);
+double von_mises(const Problem& problem, int triangle, const Eigen::Vector2d& x,
+                 const Eigen::Vector3d& stress);
 // The in-plane principal stresses, the larger first.
 Eigen::Vector2d principal_stresses(const Eigen::Vector3d& stress);
 

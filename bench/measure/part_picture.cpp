@@ -43,7 +43,7 @@ std::string von_mises_csv(const SolvedFields& fields) {
       for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i)
         fmt::format_to(std::back_inserter(text), "{},{:.8g},{:.8g},{:.6g}\n", 3 * t + k + 1,
                        third.at_mm(0, i), third.at_mm(1, i),
-                       von_mises(problem, t, third.stress.col(i)));
+                       von_mises(problem, t, third.at_mm.col(i), third.stress.col(i)));
     }
   }
   return text;

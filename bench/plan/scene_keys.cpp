@@ -55,7 +55,8 @@ static void put(JsonSlot& slot, const Eigen::Vector2d& vector) {
 }
 
 static KeyTable table(Material& material) {
-  return {{key("young_MPa", material.young_MPa), key("poisson", material.poisson)}};
+  return {{key("young_MPa", material.young_MPa), key("poisson", material.poisson),
+           key("expansion_per_K", material.expansion_per_K)}};
 }
 
 template <typename Value>
@@ -153,6 +154,13 @@ static void read(const JsonValue& value, BoundaryConditions& conditions) {
   value.each("an object with a boundary group as each key",
              [&](const std::string& label, const JsonValue& of_group) {
                read(of_group, conditions[label]);
+             });
+}
+
+static void read(const JsonValue& value, Temperatures& temperature_K) {
+  value.each("an object with a body's name as each key",
+             [&](const std::string& body, const JsonValue& of_body) {
+               read(of_body, temperature_K[body]);
              });
 }
 
@@ -264,8 +272,8 @@ static JsonKey layers_key(Scene& scene) {
 static KeyTable table(LoadStep& step) {
   return {{key("displacement_mm", step.displacement_mm),
            key("body_force_N_per_mm3", step.body_force_N_per_mm3),
-           key("clearance_mm", step.clearance_mm), key("boundary", step.boundary),
-           pairs("contacts", step.contacts)}};
+           key("clearance_mm", step.clearance_mm), key("temperature_K", step.temperature_K),
+           key("boundary", step.boundary), pairs("contacts", step.contacts)}};
 }
 
 static JsonKey load_steps_key(Scene& scene) {
@@ -346,6 +354,7 @@ static KeyTable table(SceneFile& file) {
            choice("plane", scene.plane, {{"strain", Plane::strain}, {"stress", Plane::stress}}),
            key("young_MPa", material.young_MPa),
            key("poisson", material.poisson),
+           key("expansion_per_K", material.expansion_per_K),
            materials_key(scene),
            key("friction", scene.friction),
            crown_key(scene.crown_radius_mm),
@@ -354,6 +363,7 @@ static KeyTable table(SceneFile& file) {
            key("clearance_mm", scene.clearance_mm),
            key("displacement_mm", scene.displacement_mm),
            key("body_force_N_per_mm3", scene.body_force_N_per_mm3),
+           key("temperature_K", scene.temperature_K),
            key("boundary", scene.boundary),
            list("point_supports", scene.point_supports, PointSupport(),
                 "a list of points {\"at_mm\": [x, y], \"displacement_mm\": [..., ...]}"),

@@ -37,6 +37,8 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
     return "a path of load steps: its declaration does not say load_steps";
   if (external && method.condenses_contact() && mesh_sizes(body->mesh).contact_edges == 0)
     return "no contact boundary: nothing is left for the program";
+  if (external && !method.condenses_contact() && !body->loads.thermal.empty())
+    return "thermal strain, which no file for programs has";
   if (!body->opposite.empty() && !method.joins_bodies)
     return external ? "bodies in contact with each other: its declaration does not say joins_bodies"
                     : "bodies in contact with each other: its active sets hold edges at walls only";
@@ -74,7 +76,7 @@ std::vector<StageDecision> decide_stages(const PosedProblem& posed, const Method
   const bool friction = problem.has_friction();
   const Loads& loads = problem.loads;
   const bool constrained = solved_sizes(posed).n_f > 0;
-  const bool loaded = loads.displacement_mm || loads.has_body_force();
+  const bool loaded = loads.displacement_mm || loads.has_body_force() || !loads.thermal.empty();
   const bool forced = loads.traction_MPa || loads.has_body_force();
   const std::string unused = "the method does not work with the Airy function";
 
@@ -86,7 +88,7 @@ std::vector<StageDecision> decide_stages(const PosedProblem& posed, const Method
   decide("assemble C_F", airy && constrained, airy ? "no force boundary" : unused);
   decide("assemble C_C", airy && contact, airy ? "no contact boundary" : unused);
   decide("assemble q", airy && loaded,
-         airy ? "no displacement that strains the body, no body force" : unused);
+         airy ? "no displacement that strains the body, no body force, no warmth" : unused);
   decide("assemble F", airy && constrained && forced,
          !airy ? unused : (constrained ? "no traction, no body force" : "no force boundary"));
   decide("assemble F0", airy && contact && loads.has_body_force(),

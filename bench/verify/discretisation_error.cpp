@@ -126,7 +126,9 @@ void note_bounds(const ContactSystem& system, const Fields& fields, double highe
   constexpr double rounding = 1e-12;
   const auto& [stress, F_C, u, energy, energy_of_u] = fields;
   const int m = system.contact.components;
-  double lower = work_of_prescribed(system, stress, F_C) - energy, pressing = 0, pulling = 0;  // N
+  double lower = work_of_prescribed(system, stress, F_C) - energy -
+                 thermal_work(*system.problem, stress),
+         pressing = 0, pulling = 0;  // N
   const auto more_gap = [&](int point) {
     const WallDetail detail = system.problem->wall_detail_at(system.contact.boundary[point]);
     return lower_moments<k>(detail.moments_mm)[point % (k + 1)];
@@ -165,7 +167,7 @@ double strain_energy(const Eigen::Ref<const Eigen::Matrix3Xd>& stress, double ar
   return area_mm2 / (2 * static_cast<double>(parts)) * products.cwiseProduct(compliance).sum();
 }
 
-// Adds the energies of the body: ½ ∫ of σ, of Aε(u), and twice that of their difference.
+// Adds the energies of the body: ½ ∫ of σ, of A (ε(u) − ε0), and twice that of their difference.
 void add_body(const Problem& problem, const CurvedTraces& traces, Fields& fields,
               ConstitutiveError& error) {
   const auto& [stress, F_C, u, energy, energy_of_u] = fields;
@@ -175,9 +177,9 @@ void add_body(const Problem& problem, const CurvedTraces& traces, Fields& fields
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleShape shape(problem.vertices_of(t));
     const DisplacementTriangle::Displacement of_u = of_triangle(problem, element.degree, u, t);
-    const DisplacementTriangle::Strain other =
-        elasticity[problem.mesh.triangle_body[t]].lazyProduct(
-            element.strain(shape.gradients, of_u));
+    DisplacementTriangle::Strain other = elasticity[problem.mesh.triangle_body[t]].lazyProduct(
+        element.strain(shape.gradients, of_u));
+    if (problem.is_warm(t)) other -= thermal_stress(problem, t, stress.degree());
     const DisplacementTriangle::StrainByThirds own = stress[t],
                                                difference =
                                                    own - other.lazyProduct(element.on_thirds);

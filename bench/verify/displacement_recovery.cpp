@@ -176,7 +176,10 @@ class Recovery {
     for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
       const TriangleShape shape(problem_.vertices_of(t));
       const Eigen::Matrix3d& compliance = problem_.compliance_of(t);
-      Triangle::Displacement own = own_displacement(shape, compliance, stress[t]);
+      Triangle::StrainByThirds strained = stress[t];  // A ε(u)
+      if (problem_.is_warm(t))
+        strained += thermal_stress(problem_, t, stress.degree()).lazyProduct(element_.on_thirds);
+      Triangle::Displacement own = own_displacement(shape, compliance, strained);
       set_rigid_motion(problem_, element_, t, edge_moments, own);
       if (const auto* curved = traces_.of(t)) own = mapped(curved->to_traces, own);
       own_.middleCols(element_.nodes * t, element_.nodes) = own;

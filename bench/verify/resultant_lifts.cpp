@@ -248,7 +248,7 @@ class HeldFaces {
   Lift lift(const Solution& answer) const {
     DisplacementField v =
         with_rigid_motion(*system_.problem, recovered_displacement(system_, answer));
-    StressField stress = stress_of_displacement(problem_, v);
+    StressField stress = stress_of_strain(problem_, v);
     const double norm = std::sqrt(stress_norm_squared(problem_, stress));
     return {std::move(v), std::move(stress), norm};
   }

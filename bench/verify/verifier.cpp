@@ -282,9 +282,9 @@ Verification verify(const ContactSystem& system, const Solution& solution,
   const LoadScale scale = load_scale(problem);
   note_equilibrium(system, solution, balance, scale, result);
   result.strain_energy_Nmm = stress_norm_squared(problem, solution.stress) / 2;
-  result.complementary_energy_Nmm = result.strain_energy_Nmm -
-                                    work_of_prescribed_displacement(problem, balance) -
-                                    work_of_gap(system, solution.F_C);
+  result.complementary_energy_Nmm =
+      result.strain_energy_Nmm + thermal_work(problem, solution.stress) -
+      work_of_prescribed_displacement(problem, balance) - work_of_gap(system, solution.F_C);
   if (reference != nullptr) {
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
     const double distance = stress_distance(problem, solution.stress, reference->stress);

@@ -44,7 +44,8 @@ struct Verification {
   std::optional<double> normal_resultant_N;      // Σ F_n
   std::optional<double> tangential_resultant_N;  // Σ F_t
   double strain_energy_Nmm = 0;                  // W = ½ ∫ σ:C:σ; without a body ½ Fᵀ D F
-  std::optional<double> complementary_energy_Nmm;  // Π* = W − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
+  std::optional<double>
+      complementary_energy_Nmm;  // Π* = W + ∫ σ:ε0 − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
   std::optional<int> n_open, n_stick, n_slip;  // contact points
   // Largest μ|D_nt| / D_nn of a contact point. From 1 on the law may have several solutions.
   std::optional<double> friction_coupling;

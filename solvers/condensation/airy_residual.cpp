@@ -173,9 +173,10 @@ AiryResidual airy_residual(const AirySystem& system, const LongSaddleVector& ans
   Wide stress_squared = 0;
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const TriangleStress<Wide> at = triangle_stress(system, answer.x, t);
-    const ElementStressIn<Wide> dual =
+    ElementStressIn<Wide> dual =
         stress_dual<Wide>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
     stress_squared += at.stress.cwiseProduct(dual).sum();
+    if (problem.is_warm(t)) dual += thermal_dual<Wide>(problem, t);
     scatter(system, at.dofs, WideColumn<12>(-at.of_dofs.transposed(dual)), residual.x);
   }
   add_prescribed_displacements(system, residual.x);

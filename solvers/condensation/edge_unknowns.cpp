@@ -1,5 +1,6 @@
 #include "solvers/condensation/edge_unknowns.hpp"
 
+#include "assembly/elements/bernstein.hpp"
 #include "assembly/elements/edge_forces.hpp"
 
 namespace airybench {
@@ -79,6 +80,44 @@ Eigen::MatrixXd edge_moments(const Problem& problem, const EdgeUnknowns& unknown
     if (a > b) own = own.rowwise().reverse().eval();
   }
   return moments;
+}
+
+Eigen::MatrixXd thermal_moments(const Problem& problem, int degree) {
+  if (problem.loads.thermal.empty()) return {};
+  const int triangles = static_cast<int>(problem.mesh.triangles.size()), n = 2 * (degree + 1);
+  const std::vector<int> rows = rows_in_frame(problem);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, triangles);
+  for (int t = 0; t < triangles; ++t) {
+    if (!problem.is_warm(t)) continue;
+    const TriangleVertices v = problem.vertices_of(t);
+    const Eigen::Vector2d centre = v.rowwise().mean();
+    const auto u = [&](const Eigen::Vector2d& x) {
+      return problem.thermal_of(t).displacement(x, centre);
+    };
+    const std::optional<CurvedSides> curves = problem.curves_of(t, degree);
+    for (int e = 0; e < 3; ++e) {
+      const int edge = problem.edges.of_triangle[t][e], row = rows[edge];
+      const Eigen::Vector2d a = v.col(e), b = v.col((e + 1) % 3);
+      EdgeMoments moments(2, degree + 1);
+      if (curves && !(*curves)[e].is_straight()) {
+        moments = CurvedSide<double>((*curves)[e], degree).moments_of(u);
+      } else {
+        const auto along = edge_coefficients<Eigen::Vector2d>(u(a), u((a + b) / 2), u(b));
+        for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of(degree, j, along);
+      }
+      if (row != no_frame) {
+        for (int j = 0; j <= degree; ++j) {
+          const EdgeFrame frame = problem.frame_of_moment(row, degree, j);
+          moments.col(j) =
+              Eigen::Vector2d(frame.normal.dot(moments.col(j)), frame.tangent.dot(moments.col(j)));
+        }
+      } else if (const auto& corner = problem.mesh.triangles[t]; corner[e] > corner[(e + 1) % 3]) {
+        moments = moments.rowwise().reverse().eval();
+      }
+      all.block(n * e, t, n, 1) = moments.reshaped();
+    }
+  }
+  return all;
 }
 
 void element_unknowns(const Problem& problem, const EdgeUnknowns& unknown, int t,

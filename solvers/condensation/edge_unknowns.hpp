@@ -33,4 +33,8 @@ Eigen::MatrixXd edge_moments(const Problem& problem, const EdgeUnknowns& unknown
 // ū0, a column per edge, in its components, zero where nothing is prescribed; empty: all zero.
 Eigen::MatrixXd prescribed_displacements(const Problem& problem, int degree);
 
+// Of u_th (thermal_strain.hpp) on the edges of each triangle, a column per triangle, as
+// element_unknowns() lists them; empty: all zero.
+Eigen::MatrixXd thermal_moments(const Problem& problem, int degree);
+
 }  // namespace airybench

@@ -17,6 +17,9 @@
 // holds at the Bernstein control values of a contact edge's traction: these in the cone, σ_n ≤ 0
 // and |σ_t| ≤ −μ σ_n hold on the whole edge. Gap and ū0 are quadratic on edges, and so exact.
 //
+// Thermal strain displaces a triangle's edges against ū by u_th (thermal_strain.hpp):
+// F_e = K_e (ū_e − ū_th) + f_e.
+//
 // D, G and F_C are the same numbers as from the Airy system, without its ill-conditioning: the
 // scaled condition number grows like h⁻², not h⁻⁴. No gauge, no multipliers.
 //
@@ -39,6 +42,7 @@ template <typename Scalar>
 struct HybridizedSystemIn {
   EdgeUnknowns unknown;
   Eigen::MatrixXd displacement;                            // prescribed_displacements()
+  Eigen::MatrixXd thermal;                                 // thermal_moments()
   ElementMatricesIn<Scalar> K;                             // N/mm
   Eigen::VectorX<Scalar> b;                                // N, without the contact forces
   int n_c = 0;                                             // the last unknowns

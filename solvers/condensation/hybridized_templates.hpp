@@ -30,7 +30,7 @@ void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::V
   }
 }
 
-// ū_e: what is prescribed, and the unknowns' values where there are any.
+// ū_e − ū_th: of what is prescribed, and of the unknowns' values where there are any.
 template <typename Scalar>
 void element_displacement(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                           const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u, int t,
@@ -46,11 +46,15 @@ void element_displacement(const Problem& problem, const HybridizedSystemIn<Scala
         if (const int unknown = system.unknown[edge][i]; unknown != prescribed_unknown)
           local(per_edge * k + i) = u(unknown);
   }
+  if (system.thermal.cols() > 0) local -= system.thermal.col(t).template cast<Scalar>();
 }
 
-// b −= K ū0.
+// b −= K (ū0 − ū_th).
 template <typename Scalar>
 void subtract_prescribed(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
+  system.displacement = prescribed_displacements(problem, system.degree());
+  system.thermal = thermal_moments(problem, system.degree());
+  if (system.displacement.cols() == 0 && system.thermal.cols() == 0) return;
   Eigen::VectorX<Scalar> u0(system.K.size), f(system.K.size);
   for (int t = 0; t < system.K.count(); ++t) {
     element_displacement<Scalar>(problem, system, {}, t, u0);
@@ -65,7 +69,7 @@ void subtract_prescribed(const Problem& problem, HybridizedSystemIn<Scalar>& sys
 template <typename Scalar>
 std::size_t HybridizedSystemIn<Scalar>::bytes() const {
   return K.bytes() + static_cast<std::size_t>(b.size()) * sizeof(Scalar) + unknown.bytes() +
-         static_cast<std::size_t>(displacement.size()) * sizeof(double);
+         static_cast<std::size_t>(displacement.size() + thermal.size()) * sizeof(double);
 }
 
 template <typename Scalar, int k>
@@ -157,7 +161,6 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   HybridizedSystemIn<Scalar> system;
   system.n_c = contact.size();
   const int n = number_unknowns(problem, contact, system.unknown) + system.n_c;
-  system.displacement = prescribed_displacements(problem, system.degree());
   system.b = Eigen::VectorX<Scalar>::Zero(n);
   system.K = ElementMatricesIn<Scalar>(3 * system.unknown.length());
   system.K.order = n;
@@ -170,21 +173,20 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
                             system.K.add(unknown, centre_of(problem.vertices_of(t)), element.lower);
                             subtract_load(unknown, element.load, system.b);
                           });
-  if (system.displacement.cols() > 0) subtract_prescribed(problem, system);
+  subtract_prescribed(problem, system);
   add_tractions(problem, system.unknown, system.b);
   return system;
 }
 
 template <typename Scalar>
 void set_load_case(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
-  system.displacement = prescribed_displacements(problem, system.degree());
   system.b.setZero();
   if (problem.loads.has_body_force())
     visit_stiffness<Scalar>(problem, system.degree(),
                             [&](int t, const StiffnessOfTriangle<Scalar>& element) {
                               subtract_load(system.K.unknown[t], element.load, system.b);
                             });
-  if (system.displacement.cols() > 0) subtract_prescribed(problem, system);
+  subtract_prescribed(problem, system);
   add_tractions(problem, system.unknown, system.b);
 }
 

@@ -136,6 +136,8 @@ void add_loads(const Problem& problem, const std::map<int, Eigen::Matrix2d>& fra
                DisplacementSystem& system) {
   if (problem.loads.has_body_force() || problem.loads.traction_MPa)
     add_nodal(nodal_loads(problem, system.degree), frame, system, system.b);
+  if (!problem.loads.thermal.empty())
+    add_nodal(thermal_forces(problem, system.degree), frame, system, system.b);
 }
 
 }  // namespace

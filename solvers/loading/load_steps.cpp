@@ -64,12 +64,25 @@ std::function<Value(Arguments...)> mean(const std::function<Value(Arguments...)>
   };
 }
 
+std::vector<ThermalStrain> mean(const std::vector<ThermalStrain>& a,
+                                const std::vector<ThermalStrain>& b) {
+  std::vector<ThermalStrain> half(std::max(a.size(), b.size()));
+  for (const std::vector<ThermalStrain>* of : {&a, &b})
+    for (std::size_t k = 0; k < of->size(); ++k) {
+      half[k].at_origin += (*of)[k].at_origin / 2;
+      half[k].slope_per_mm += (*of)[k].slope_per_mm / 2;
+      half[k].modulus_zz_MPa = (*of)[k].modulus_zz_MPa;
+    }
+  return half;
+}
+
 Loads mean(const Loads& before, const Loads& after) {
   Loads half = after;
   half.displacement_mm = mean(before.displacement_mm, after.displacement_mm);
   half.traction_MPa = mean(before.traction_MPa, after.traction_MPa);
   half.gap_mm = mean(before.gap_mm, after.gap_mm);
   half.body_force_N_per_mm3 = (before.body_force_N_per_mm3 + after.body_force_N_per_mm3) / 2;
+  half.thermal = mean(before.thermal, after.thermal);
   return half;
 }
 
