@@ -1,10 +1,10 @@
-// Thermal strain ε0 = e(x) 1 in the plane, e linear in x: α ΔT in plane stress, (1 + ν) α ΔT in plane
-// strain. It belongs to a displacement,
+// Thermal strain ε0 = e(x) 1 in the plane, e linear in x: α ΔT in plane stress, (1 + ν) α ΔT in
+// plane strain. It belongs to a displacement,
 //
 //   u_th(x) = e(c) d + (∇e·d) d − |d|²/2 ∇e,   d = x − c,   ε(u_th) = ε0 for any c,
 //
-// so that σ = A (ε(u) − ε0) = A ε(u − u_th): on a triangle whose sides are displaced by ū the stress is
-// that of ū less u_th, in every method.
+// so that σ = A (ε(u) − ε0) = A ε(u − u_th): on a triangle whose sides are displaced by ū the
+// stress is that of ū less u_th, in every method.
 #pragma once
 
 #include <Eigen/Core>
