@@ -88,7 +88,7 @@ std::vector<StageDecision> decide_stages(const PosedProblem& posed, const Method
   decide("assemble C_F", airy && constrained, airy ? "no force boundary" : unused);
   decide("assemble C_C", airy && contact, airy ? "no contact boundary" : unused);
   decide("assemble q", airy && loaded,
-         airy ? "no displacement that strains the body, no body force, no warmth" : unused);
+         airy ? "no displacement that strains the body, no body force, no thermal strain" : unused);
   decide("assemble F", airy && constrained && forced,
          !airy ? unused : (constrained ? "no traction, no body force" : "no force boundary"));
   decide("assemble F0", airy && contact && loads.has_body_force(),
