@@ -58,6 +58,11 @@ Scene random_scene(Dice& dice) {
   scene.displacement_mm = {dice.between(0.002, 0.03), dice.between(-0.01, 0.01)};
   if (dice.below(3) == 0) scene.body_force_N_per_mm3 = {dice.between(-5, 5), dice.between(-5, 5)};
   scene.equal_steps = 1 + dice.below(3);
+  if (dice.below(3) == 0) {
+    scene.material.expansion_per_K = 12e-6;
+    scene.temperature_K["body"] = {{dice.between(-200, 200), dice.between(-200, 200)},
+                                   {Eigen::Vector2d(0, 0), Eigen::Vector2d(dice.between(1, 9), 5)}};
+  }
   return scene;
 }
 

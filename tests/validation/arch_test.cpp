@@ -1,0 +1,77 @@
+// A semicircular arch of 25 stones under its weight: held by contact alone, by friction at every joint.
+//
+// The least friction at which rigid stones stand is that of limit analysis: a linear program over
+// each joint's normal forces at its two ends and the tangential one between, |T| ≤ μ N, in
+// equilibrium with the weight of the polygons below. Solved once, to 1e-10.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "tests/support/pieces.hpp"
+#include "tests/support/solved_scene.hpp"
+
+namespace airybench::arch_test {
+namespace {
+
+constexpr int stones = 25;
+constexpr double radius_mm = 10;  // in the middle
+
+Mesh arch(double thickness_mm) {
+  Mesh mesh;
+  mesh.name = "arch";
+  const std::vector<double> radii = {radius_mm - thickness_mm / 2, radius_mm,
+                                     radius_mm + thickness_mm / 2};
+  for (int k = 0; k < stones; ++k)
+    testing::add_ring_sector(mesh, fmt::format("stone {}", k), radii, 2, "force", "force",
+                             {{std::numbers::pi * k / stones, std::numbers::pi * (k + 1) / stones},
+                              {fmt::format("contact:{} first", k), fmt::format("contact:{} last", k)}});
+  validate(mesh);
+  return mesh;
+}
+
+Scene under_its_weight(double friction) {
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  scene.friction = friction;
+  scene.displacement_mm = {0, 0};
+  scene.body_force_N_per_mm3 = {0, -2.5e-5};
+  for (int k = 0; k + 1 < stones; ++k)
+    scene.contacts.push_back({.between = {{{fmt::format("contact:{} last", k)},
+                                           {fmt::format("contact:{} first", k + 1)}}}});
+  for (const std::string& springing : {std::string("contact:0 first"),
+                                       fmt::format("contact:{} last", stones - 1)})
+    scene.boundary[springing].contact.wall = FlatWall{{0, 0}, {0, 1}};
+  return scene;
+}
+
+struct Known {
+  double thickness_mm, least_friction;
+};
+class Arch : public ::testing::TestWithParam<Known> {};
+
+TEST_P(Arch, StandsFromTheFrictionOfLimitAnalysisOn) {
+  const auto& [thickness_mm, least] = GetParam();
+  const Mesh mesh = arch(thickness_mm);
+  const Method method = select_methods("HYBRID").front();
+  for (const double friction : {0.5, 1.02 * least, 0.98 * least}) {
+    const Solution solution = solve_load_case(
+        method.solve, *assemble(method, testing::posed(under_its_weight(friction), mesh)), {});
+    if (friction > least) {
+      EXPECT_EQ(solution.status, Status::ok) << friction << ": " << solution.message;
+    } else {
+      EXPECT_EQ(solution.status, Status::breakdown) << friction;
+      EXPECT_NE(solution.message.find("nothing holds"), std::string::npos) << solution.message;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Arch,
+                         ::testing::Values(Known{1.5, 0.3496485527}, Known{2, 0.3076886199}),
+                         [](const auto& known) {
+                           return fmt::format("Tenths{}", int(10 * known.param.thickness_mm));
+                         });
+
+}  // namespace
+}  // namespace airybench::arch_test
