@@ -126,14 +126,14 @@ Compared check_case(const Method& program, const PosedScene& scene, const CaseSe
     F = answer.F_C;
     return answer;
   };
-  const Record record =
-      Workbench(scene.problem, asked, limits).examine({scene, watched, asked}, "").record;
-  c.seen.verdict = name_of(record.status);
-  c.seen.passed = record.status == Status::ok;
+  const Verdict verdict =
+      Workbench(scene.problem, asked, limits).examine({scene, watched, asked}, "").result.verdict;
+  c.seen.verdict = name_of(verdict.status);
+  c.seen.passed = verdict.status == Status::ok;
   const Condensed condensed = condensed_of(program, scene);
   c.laws = laws_of(condensed.problem.points, condensed.F_C);
   if (F.size() != condensed.F_C.size())
-    c.unnamed = in_short(record.status_reason);
+    c.unnamed = in_short(verdict.reason);
   else if (!F.allFinite())
     c.unnamed = "forces that are no numbers";
   else

@@ -7,9 +7,19 @@
 #include <new>
 
 #include "assembly/problem/load_scale.hpp"
+#include "bench/measure/remarks.hpp"
 #include "bench/verify/geometry_error.hpp"
 
 namespace airybench {
+namespace {
+
+std::vector<double> errors_of_method(const std::vector<JudgedStep>& steps) {
+  std::vector<double> errors;
+  for (const JudgedStep& step : steps) errors.push_back(step.seen().error_stress.value_or(0));
+  return errors;
+}
+
+}  // namespace
 
 Judge::Judge(const PosedProblem& problem, const CaseSettings& common, const LeftOut& left_out)
     : problem_(held<Problem>(problem)),
@@ -79,8 +89,8 @@ JudgedStep Judge::judged(const std::vector<JudgedStep>& before, const ContactSys
   return result;
 }
 
-JudgedStep Judge::judged(const AssembledBlocks& blocks, const Solution& solution) {
-  if (problem_) return judged({}, *blocks.system, solution);
+JudgedStep Judge::judged(const ContactSystem* system, const Solution& solution) {
+  if (problem_) return judged({}, *system, solution);
   const ActivityScope scope(board_, Activity::verification);
   return {solution.status, verify(*contact_problem_, solution.F_C)};
 }
@@ -107,35 +117,35 @@ std::optional<Verification> Judge::verify_as_other_solution(const ContactSystem&
   }
 }
 
-Verdict Judge::judge(const Case& asked, const std::vector<JudgedStep>& steps,
-                     const Solution& solution, Verdict own, Record& record) {
+Verdict Judge::judge(const Case& asked, CaseResult& result) {
   const Method& method = asked.method;
-  take_over(steps.back().seen(), record);
-  record.answer_hash = answer_hash(steps.back().seen());
-  Verdict verdict = std::move(own);
+  const Solution& solution = *result.solution;
+  Verdict verdict = {solution.status, solution.message};
   const auto is_ok = [&] { return verdict.status == Status::ok; };
-  if (is_ok()) verdict = judge_method_error(asked, steps, solution, std::move(verdict), record);
+  if (result.search.tuning_cut && !is_ok()) verdict.add("the search was cut: see tuning_cut");
+  if (!is_answered(solution)) return verdict;
+  result.verification = result.steps.back().seen();
+  if (is_ok()) verdict = judge_method_error(asked, std::move(verdict), result);
   const auto* const displacements = solution.as<Displacements>();
   const bool is_by_program = displacements != nullptr && displacements->by_program;
   if (is_ok() && is_by_program)
-    verdict = judge_penetration(steps, displacements->by_program->allowed_penetration,
+    verdict = judge_penetration(result.steps, displacements->by_program->allowed_penetration,
                                 std::move(verdict));
   if (!problem_) return verdict;
-  record.polygons = polygon_groups(*problem_, method.in_displacements() ? 1 : method.degree);
-  if (!is_by_program) {
-    note_discretisation(method, record);
-  } else if (reference(1) == nullptr) {
+  result.polygons = polygon_groups(*problem_, method.in_displacements() ? 1 : method.degree);
+  if (is_by_program && reference(1) == nullptr)
     return {has_answer(verdict.status) ? Status::inaccurate : verdict.status,
             "its error is not known: " + references(1).missing};
-  } else {
-    note_error_of_displacement(steps, record);
-  }
+  result.of_mesh = is_by_program ? error_of_displacement(result.steps)
+                                 : discretisation_error(method, result.is_other_solution);
+  result.of_mesh.total.set_method_errors(errors_of_method(result.steps));
   const std::vector<StepResult>* const halves = half_steps(method.degree);
-  if (halves != nullptr) record.steps_in_halves = *halves;
-  if (is_ok()) verdict = judge_total_error(method, std::move(verdict), record);
-  if (is_ok()) verdict.add(remark_on_polygons(method, record));
+  if (halves != nullptr) result.steps_in_halves = *halves;
+  if (is_ok()) verdict = judge_total_error(method, std::move(verdict), result);
+  if (is_ok()) verdict.add(remark_on_polygons(method, result.polygons, result.of_mesh.total));
   if (is_ok() && halves != nullptr && !method.in_displacements())
-    for (const std::string& remark : remarks_on_half_steps(record)) verdict.add(remark);
+    for (const std::string& remark : remarks_on_half_steps(step_results(result.steps), *halves))
+      verdict.add(remark);
   return verdict;
 }
 
@@ -153,9 +163,10 @@ Verdict Judge::judge_penetration(const std::vector<JudgedStep>& steps, double al
           100 * *v.penetration_share, 100 * allowed)};
 }
 
-Verdict Judge::judge_method_error(const Case& asked, const std::vector<JudgedStep>& steps,
-                                  const Solution& solution, Verdict so_far, Record& record) {
+Verdict Judge::judge_method_error(const Case& asked, Verdict so_far, CaseResult& result) {
   const Method& method = asked.method;
+  const std::vector<JudgedStep>& steps = result.steps;
+  const Solution& solution = *result.solution;
   const Verification& v = steps.back().seen();
   // A path may end unloaded.
   const bool is_unstressed =
@@ -170,17 +181,17 @@ Verdict Judge::judge_method_error(const Case& asked, const std::vector<JudgedSte
             fmt::format("{}{} {:.2e} is above the target {:.0e}",
                         prefix_of(static_cast<std::int64_t>(at)), worst.name, worst.value, target)};
   if (other != steps.end()) {
-    record.outcome = other_solution;
+    result.is_other_solution = true;
     return {Status::ok, fmt::format("{}another solution than the reference's, {:.1e} of its stress "
                                     "away; errors are to this one",
                                     prefix_of(other - steps.begin()),
                                     other->verification.error_stress.value_or(0))};
   }
-  if (v.stress_of_moments_off && is_too_large_for_reference() && record.error_estimate)
+  if (v.stress_of_moments_off && is_too_large_for_reference() && solution.error_estimate)
     return {Status::ok,
             fmt::format("{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law "
                         "and that its stresses are those of its displacements are checked",
-                        references(method.degree).missing, *record.error_estimate)};
+                        references(method.degree).missing, *solution.error_estimate)};
   if (!v.error_stress && !method.in_displacements() && problem_)
     return {Status::inaccurate, "its error is not known: " + references(method.degree).missing};
   if (is_unstressed)

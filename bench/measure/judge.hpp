@@ -6,10 +6,7 @@
 #include <memory>
 
 #include "bench/measure/activity_board.hpp"
-#include "bench/measure/load_step_runs.hpp"
-#include "bench/measure/record_notes.hpp"
-#include "bench/plan/options.hpp"
-#include "bench/plan/plan.hpp"
+#include "bench/measure/case_result.hpp"
 
 namespace airybench {
 
@@ -27,18 +24,18 @@ class Judge {
   void prepare(const Method& method);
 
   bool is_answered(const Solution& solution) const;  // there is something to judge
-  bool knows_errors(const AssembledBlocks& blocks) {
-    return contact_problem_ || reference(blocks.system->degree) != nullptr;
+  // system: null without a body.
+  bool knows_errors(const ContactSystem* system) {
+    return contact_problem_ || reference(system->degree) != nullptr;
   }
   // before: the steps of the path up to this one.
   JudgedStep judged(const std::vector<JudgedStep>& before, const ContactSystem& system,
                     const Solution& solution);
-  JudgedStep judged(const AssembledBlocks& blocks, const Solution& solution);  // without a path
-  // own: the method's. Fills the record's errors; steps: of the whole path.
-  Verdict judge(const Case& asked, const std::vector<JudgedStep>& steps, const Solution& solution,
-                Verdict own, Record& record);
+  JudgedStep judged(const ContactSystem* system, const Solution& solution);  // without a path
+  // Of what was solved: its solution and steps. Fills its errors.
+  Verdict judge(const Case& asked, CaseResult& result);
   void write_fields_of(const Method& method, const ContactSystem& system, const Solution& solution,
-                       const Record& record, const std::filesystem::path& file);
+                       bool is_other_solution, const std::filesystem::path& file);
 
  private:
   // Discretisation error of the reference's stresses with the displacements of P2, P3, …, one
@@ -46,12 +43,9 @@ class Judge {
   // degree, HYBRID with displacements recovered from them.
   enum class Bound { displacement, recovery };
   struct Discretisation {
-    TotalError total;
-    // Of the last load step.
-    ConstitutiveError error;
+    DiscretisationError result;  // intervals: of recovery
+    ConstitutiveError error;     // of the last load step, as u
     DisplacementField u;
-    std::optional<ContactIntervals> intervals;  // for recovery, if asked for and the error is valid
-    std::vector<StepMeshError> of_steps;
   };
 
   bool is_too_large_for_reference() const;
@@ -70,23 +64,21 @@ class Judge {
                                                        const Solution& solution,
                                                        const Verification& v, double start_off_N);
   // Each is asked of an answer that is ok so far.
-  Verdict judge_method_error(const Case& asked, const std::vector<JudgedStep>& steps,
-                             const Solution& solution, Verdict so_far, Record& record);
+  Verdict judge_method_error(const Case& asked, Verdict so_far, CaseResult& result);
   // Of an external program: through the wall by more than it is allowed is inaccurate.
   Verdict judge_penetration(const std::vector<JudgedStep>& steps, double allowed,
                             Verdict so_far) const;
   // An error of 100 % is not ok.
-  Verdict judge_total_error(const Method& method, Verdict so_far, const Record& record) const;
+  Verdict judge_total_error(const Method& method, Verdict so_far, const CaseResult& result) const;
 
   std::optional<Bound> bound_for(const Method& method) const;  // none: it has its own
   bool wants_intervals(int degree) const;
   // Null: stresses or displacements are missing.
   const Discretisation* discretisation(Bound bound, int degree);
   std::optional<Discretisation> compute_discretisation(Bound bound, int degree);
-  void note_discretisation(const Method& method, Record& record);
-  std::string prefix_of_largest(const Record& record) const;
+  DiscretisationError discretisation_error(const Method& method, bool is_other_solution);
   // For an external program with references: its displacements, made admissible.
-  void note_error_of_displacement(const std::vector<JudgedStep>& steps, Record& record);
+  DiscretisationError error_of_displacement(const std::vector<JudgedStep>& steps);
   // A path with friction in twice as many steps; null without such a path or a reference.
   const std::vector<StepResult>* half_steps(int degree);
 

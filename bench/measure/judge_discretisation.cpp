@@ -41,9 +41,12 @@ StepMeshError bounds(const ConstitutiveError& error) {
   return step;
 }
 
-void add_errors(const TotalError& total, std::vector<StepMeshError>& steps) {
+// last: of the last load step.
+void complete(const ConstitutiveError& last, DiscretisationError& result) {
+  const TotalError& total = result.total;
   for (int k = 0; k < total.steps(); ++k)
-    steps[static_cast<std::size_t>(k)].error_discretisation = total.relative(k);
+    result.of_steps[static_cast<std::size_t>(k)].error_discretisation = total.of_mesh(k);
+  if (total.of_mesh(total.steps() - 1)) result.relative_of_mean = last.relative_of_mean;
 }
 
 void add_intervals(const ContactIntervals& intervals, StepMeshError& step) {
@@ -101,45 +104,47 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
     if (std::ssize(own_u) < count_of_steps(*problem_)) return {};
     solve = references_one_by_one(degree);
   }
-  Discretisation result;
+  Discretisation found;
+  DiscretisationError& result = found.result;
+  ConstitutiveError& error = found.error;
+  DisplacementField& u = found.u;
+  result.by = bound == Bound::displacement ? displacements_of_degree(degree + 1) : "recovery";
   std::optional<ResultantLifts> lifts;
   ContactSystem system = contact_system(problem_, degree);
   solve_load_steps(
       solve, system, {}, [&](int step, const ContactSystem& posed, const Solution& own) {
         if (own.status != Status::ok) return;
         if (bound == Bound::displacement) {
-          const auto& [u, free_motion_mm] = own_u[static_cast<std::size_t>(step)];
+          const OwnDisplacement& solved = own_u[static_cast<std::size_t>(step)];
           std::optional<ContactSystem> moved;  // as these displacements, where a body is free to
-          if (free_motion_mm.size() > 0)
-            moved.emplace(posed).set_load_case(
-                std::make_shared<const Problem>(with_free_motion(*posed.problem, free_motion_mm)));
-          std::tie(result.error, result.u) = error_of_displacements(moved ? *moved : posed, own, u);
+          if (solved.free_motion_mm.size() > 0)
+            moved.emplace(posed).set_load_case(std::make_shared<const Problem>(
+                with_free_motion(*posed.problem, solved.free_motion_mm)));
+          std::tie(error, u) = error_of_displacements(moved ? *moved : posed, own, solved.u);
         } else {
-          result.u = recovered_displacement(posed, own);
-          result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
+          u = recovered_displacement(posed, own);
+          error = constitutive_error(posed, own.stress, own.F_C, u);
         }
-        result.total.add(result.error, prefix_of(step),
+        result.total.add(error, prefix_of(step),
                          bound == Bound::displacement ? TotalError::Of::displacements
                                                       : TotalError::Of::stresses);
-        result.of_steps.push_back(bounds(result.error));
+        result.of_steps.push_back(bounds(error));
         result.intervals.reset();
-        if (bound == Bound::displacement || !result.error.flaw.empty() || !wants_intervals(degree))
-          return;
+        if (bound == Bound::displacement || !error.flaw.empty() || !wants_intervals(degree)) return;
         if (!lifts) lifts = resultant_lifts(*problem_, degree);
-        result.intervals =
-            contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
+        result.intervals = contact_intervals(posed, own.stress, own.F_C, u, error, *lifts);
         if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());
       });
   if (result.total.steps() < count_of_steps(*problem_)) return {};
-  add_errors(result.total, result.of_steps);
-  return result;
+  complete(error, result);
+  return found;
 }
 
-void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Record& record) {
-  if (std::ssize(steps) < count_of_steps(*problem_)) return;
-  TotalError total;
+DiscretisationError Judge::error_of_displacement(const std::vector<JudgedStep>& steps) {
+  DiscretisationError result;
+  if (std::ssize(steps) < count_of_steps(*problem_)) return result;
+  result.by = "its own displacements";
   ConstitutiveError error;
-  std::vector<StepMeshError> of_steps;
   ContactSystem system = contact_system(problem_);
   solve_load_steps(references_one_by_one(1), system, {},
                    [&](int step, const ContactSystem& posed, const Solution& own) {
@@ -147,33 +152,28 @@ void Judge::note_error_of_displacement(const std::vector<JudgedStep>& steps, Rec
                          steps[static_cast<std::size_t>(step)].displacement;
                      error = constitutive_error(posed, own.stress, own.F_C,
                                                 admissible_displacement(posed, own.F_C, u));
-                     total.add(error, prefix_of(step), TotalError::Of::displacements);
-                     of_steps.push_back(bounds(error));
+                     result.total.add(error, prefix_of(step), TotalError::Of::displacements);
+                     result.of_steps.push_back(bounds(error));
                    });
-  add_errors(total, of_steps);
-  note(total, error, "its own displacements", record);
-  for (std::size_t k = 0; k < record.steps.size(); ++k) record.steps[k].of_mesh = of_steps[k];
+  complete(error, result);
+  return result;
 }
 
-void Judge::note_discretisation(const Method& method, Record& record) {
+DiscretisationError Judge::discretisation_error(const Method& method, bool is_other_solution) {
+  DiscretisationError result;
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound ? discretisation(*bound, method.degree) : nullptr;
-  if (record.outcome == other_solution) {
-    record.no_discretisation_error = "it is known for the reference's solution only";
+  if (is_other_solution) {
+    result.missing = "it is known for the reference's solution only";
   } else if (known != nullptr) {
-    note(known->total, known->error,
-         *bound == Bound::displacement ? displacements_of_degree(method.degree + 1) : "recovery",
-         record);
-    if (known->intervals) note(*known->intervals, record);
-    for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
-      record.steps[k].of_mesh = known->of_steps[k];
+    result = known->result;
   } else if (method.in_displacements()) {
     const std::string& missing = references(method.degree).missing;
-    record.no_discretisation_error = !missing.empty() ? missing
-                                     : discretisation_left_out_.empty()
-                                         ? method.name + " has no answer"
-                                         : discretisation_left_out_;
+    result.missing = !missing.empty()                   ? missing
+                     : discretisation_left_out_.empty() ? method.name + " has no answer"
+                                                        : discretisation_left_out_;
   }
+  return result;
 }
 
 const std::vector<StepResult>* Judge::half_steps(int degree) {
@@ -188,39 +188,34 @@ const std::vector<StepResult>* Judge::half_steps(int degree) {
   return &found->second;
 }
 
-// Of the step that has the record's total error.
-std::string Judge::prefix_of_largest(const Record& record) const {
-  const auto step = std::ranges::find_if(record.steps, [&](const StepResult& result) {
-    return result.of_mesh.error_discretisation == record.error_discretisation;
-  });
-  return step == record.steps.end() ? "" : prefix_of(step - record.steps.begin());
-}
-
-Verdict Judge::judge_total_error(const Method& method, Verdict so_far, const Record& record) const {
-  if (is_all_error(record.error_discretisation))
+Verdict Judge::judge_total_error(const Method& method, Verdict so_far,
+                                 const CaseResult& result) const {
+  const TotalError& total = result.of_mesh.total;
+  if (const std::optional<double> error = total.of_mesh(); is_all_error(error))
     return {Status::inaccurate,
-            prefix_of_largest(record) +
-                (std::isinf(*record.error_discretisation)
-                     ? "it has stress, and the reference has none"
-                     : fmt::format("its total error is {:.0f} %: nothing of it is known",
-                                   100 * *record.error_discretisation))};
-  if (method.in_displacements() && !record.error_discretisation && so_far.reason.empty())
-    so_far.add("its total error is not known: " + record.no_discretisation_error);
+            prefix_of(*total.largest_step()) +
+                (std::isinf(*error) ? "it has stress, and the reference has none"
+                                    : fmt::format("its total error is {:.0f} %: nothing of it is "
+                                                  "known",
+                                                  100 * *error))};
+  if (method.in_displacements() && !total.of_mesh() && so_far.reason.empty())
+    so_far.add("its total error is not known: " +
+               (total.flaw().empty() ? result.of_mesh.missing : total.flaw()));
   return so_far;
 }
 
 void Judge::write_fields_of(const Method& method, const ContactSystem& system,
-                            const Solution& solution, const Record& record,
+                            const Solution& solution, bool is_other_solution,
                             const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known =
-      bound && record.outcome != other_solution ? discretisation(*bound, method.degree) : nullptr;
+      bound && !is_other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
   fields.picture = common_.picture;
   if (!fields.w && known != nullptr && known->u.allFinite()) fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
-    if (known->intervals) fields.intervals = &*known->intervals;
+    if (known->result.intervals) fields.intervals = &*known->result.intervals;
     if (common_.mean_fields)
       fields.mean =
           mean_stress(*problem_,

@@ -168,7 +168,7 @@ std::vector<StepResult> step_results(const std::vector<JudgedStep>& steps) {
                     .strain_energy_Nmm = v.strain_energy_Nmm,
                     .dissipation_Nmm = step.dissipation_Nmm,
                     .of_mesh = {},
-                    .fields = {}});
+                    .fields = step.fields});
   }
   return list;
 }

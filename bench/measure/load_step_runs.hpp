@@ -37,6 +37,7 @@ struct JudgedStep {
   std::optional<Verification> as_other = {};
   double dissipation_Nmm = 0;
   DisplacementField displacement = {};  // of an external program
+  std::string fields = {};              // StepResult::fields
 
   const Verification& seen() const { return as_other ? *as_other : verification; }
 };

@@ -17,6 +17,17 @@ namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
 
+void drop_arrays(CaseResult& result) {
+  Solution& solution = *result.solution;
+  for (Eigen::VectorXd* values :
+       {&solution.F_C, &solution.contact_displacement, &solution.free_motion_mm})
+    values->resize(0);
+  solution.unknowns = {};
+  solution.stress = {};
+  solution.solve_again = {};
+  for (JudgedStep& step : result.steps) step.displacement = {};
+}
+
 }  // namespace
 
 Workbench::Workbench(PosedProblem problem, const CaseSettings& common, const Limits& limits,
@@ -46,55 +57,70 @@ const AssembledBlocks& Workbench::blocks(const Method& method) {
   auto found = blocks_.find(which);
   if (found == blocks_.end()) {
     const ActivityScope scope(board_, Activity::assembly);
-    found =
-        blocks_.emplace(which, assemble_and_measure(problem_, method, limits_.repetitions)).first;
+    found = blocks_.emplace(which, assemble_and_measure(method)).first;
   }
   return found->second;
+}
+
+AssembledBlocks Workbench::assemble_and_measure(const Method& method) const {
+  AssembledBlocks blocks;
+  for (int i = 0; i < limits_.repetitions; ++i) {
+    blocks.system.reset();
+    const std::int64_t before = heap::live_bytes();
+    const auto start = std::chrono::steady_clock::now();
+    const OwnerScope scope(MemoryOwner::blocks);
+    if (problem_) blocks.system = assemble(method, problem_);
+    blocks.assembly_samples_s.push_back(seconds_since(start));
+    blocks.heap_bytes = heap::live_bytes() - before;
+  }
+  return blocks;
 }
 
 Workbench::Examination Workbench::examine(const Case& asked, const std::filesystem::path& fields) {
   const Method& method = asked.method;
   Examination examination;
-  auto& [record, choice, program_log] = examination;
-  record = blank_record(asked, limits_);
+  auto& [result, choice] = examination;
   try {
-    take_over(blocks(method), record);
+    result.assembly_samples_s = blocks(method).assembly_samples_s;
   } catch (const std::bad_alloc&) {
-    record.conclude({Status::out_of_memory, "assembly: an allocation was refused"});
+    result.verdict = {Status::out_of_memory, "assembly: an allocation was refused"};
     return examination;
   } catch (const std::exception& error) {
-    record.conclude({Status::breakdown, fmt::format("assembly: {}", error.what())});
+    result.verdict = {Status::breakdown, fmt::format("assembly: {}", error.what())};
     return examination;
   }
   const AssembledBlocks& assembled = blocks(method);
-  choice = choose(asked, assembled, record);
-  Run run = tighten(assembled, choice, record);
-  Solution& solution = run.solution;
-  note_run(run, choice, record);
-  if (solution.program) program_log = std::move(solution.program->log);
-  Verdict verdict = verdict_of(run, record);
-  if (judge_.is_answered(solution)) {
-    verify_run(assembled, run);
-    verdict = judge_.judge(asked, run.judged, solution, std::move(verdict), record);
-  }
-  record.conclude(verdict);
-  if (!fields.empty() && problem_) write_fields(method, choice, assembled, run, record, fields);
+  choice = choose(asked, assembled, result.search);
+  Run run = tighten(assembled, choice, result.search);
+  if (choice.settings.tightened && choice.settings.tolerance > 0)
+    result.search.tolerance = choice.settings.tolerance;
+  if (judge_.is_answered(run.solution)) verify_run(assembled, run);
+  const TimedRun only_run = timed(run);
+  result.solution = std::move(run.solution);
+  result.steps = std::move(run.judged);
+  result.verdict = judge_.judge(asked, result);
+  if (!fields.empty() && problem_) write_fields(asked, choice, assembled, result, fields);
+  const std::optional<double> done = result.solution->done_fraction;
   // The detail run of a path judges between its steps, which takes memory.
-  const bool once =
-      record.load_steps == 1 && (run.time_s > limits_.long_case_s || asked.settings.timed_once);
-  if (once && is_measured(record)) {
-    record.measured_once = true;
-    add_run(timed(run), record);
-    note_memory(run, record);
+  const bool is_path = problem_ && count_of_steps(*problem_) > 1;
+  if (!is_path && (run.time_s > limits_.long_case_s || asked.settings.timed_once) &&
+      is_measured(to_record(asked, limits_, result))) {
+    result.only_run = only_run;
+    result.memory = run.memory;
+  } else if (done) {  // timeout in the solve itself: a lower bound
+    result.memory = {run.memory.peak_heap_bytes, run.memory.peak_rss_bytes, {}, {}};
   }
+  if (done && *done > 0) result.extrapolated_time_s = run.time_s / *done;
+  drop_arrays(result);
   return examination;
 }
 
-void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
+void Workbench::measure_memory(const Method& method, const Choice& choice, CaseResult& result) {
   malloc_trim(0);
   const Run run = solve(choice, blocks(method), Activity::memory_run);
-  if (!ended_alike(timed(run), "memory", record)) return;
-  note_memory(run, record);
+  const bool ended_alike = run.solution.status == result.solution->status;
+  if (!ended_alike) result.verdict = ended_otherwise(timed(run), "memory");
+  result.memory = ended_alike ? run.memory : Memory();
 }
 
 TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
@@ -102,7 +128,7 @@ TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
 }
 
 Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& blocks,
-                                    Record& record) {
+                                    Search& search) {
   const Method& method = asked.method;
   Choice choice{method.solve, method.solve_contact, asked.settings};
   CaseSettings& settings = choice.settings;
@@ -120,8 +146,8 @@ Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& bl
     return none;
   };
   const Run tuned = solve({tune, {}, settings}, blocks, Activity::tuning);
-  record.tuning_s = tuned.time_s;
-  record.tuning_cut =
+  search.tuning_s = tuned.time_s;
+  search.tuning_cut =
       tuned.solution.status == Status::timeout ||
       std::ranges::any_of(tuning.grid, [](const GridPoint& p) { return p.outcome == "not tried"; });
   if (tuning.solve != nullptr) {
@@ -138,21 +164,20 @@ Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& bl
   return choice;
 }
 
-// Records the claimed and the true error of a tolerance; the method never sees the true one.
-void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run,
-                             Record& record) {
-  Json attempt = {{"tolerance", *choice.settings.tolerance},
-                  {"claimed_status", name_of(run.solution.status)}};
-  if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
-  if (judge_.is_answered(run.solution) && judge_.knows_errors(blocks)) {
+// With the true error of a tolerance, which the method never sees.
+Search::Attempt Workbench::attempt_of(const Choice& choice, const AssembledBlocks& blocks,
+                                      Run& run) {
+  Search::Attempt attempt = {
+      *choice.settings.tolerance, run.solution.status, run.solution.error_estimate, {}};
+  if (judge_.is_answered(run.solution) && judge_.knows_errors(blocks.system.get())) {
     verify_run(blocks, run);
-    attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].seen()).value;
+    attempt.error = worst_measure(run.judged[worst_step(run.judged)].seen()).value;
   }
-  record.attempts.push_back(std::move(attempt));
+  return attempt;
 }
 
 Workbench::Run Workbench::tighten(const AssembledBlocks& assembled, Choice& choice,
-                                  Record& record) {
+                                  Search& search) {
   constexpr int max_attempts = 6;
   std::optional<Run> finished;  // the last answer, not accurate enough
   double finished_with = 0;
@@ -162,23 +187,23 @@ Workbench::Run Workbench::tighten(const AssembledBlocks& assembled, Choice& choi
     Run run = solve(choice, assembled, Activity::detail_run);
     const Solution& solution = run.solution;
     if (finished && !has_answer(solution.status)) {  // the earlier answer is better than none
-      record.tuning_s = *record.tuning_s - finished->time_s + run.time_s;
+      search.tuning_s = *search.tuning_s - finished->time_s + run.time_s;
       choice.settings.tolerance = finished_with;
       return std::move(*finished);
     }
     if (!asked.tightened) return run;
-    note_attempt(choice, assembled, run, record);
+    search.attempts.push_back(attempt_of(choice, assembled, run));
     const double estimate = solution.error_estimate.value_or(0);
     double tolerance = *asked.tolerance;
     if (asked.stop == Stop::paper || !has_answer(solution.status) ||
         solution.status == Status::ok || attempt == max_attempts || tolerance <= tightest)
       return run;
-    const double searched_s = record.tuning_s.value_or(0) + run.time_s;
+    const double searched_s = search.tuning_s.value_or(0) + run.time_s;
     if (limits_.tuning_budget_s && searched_s >= *limits_.tuning_budget_s) {
-      record.tuning_cut = true;
+      search.tuning_cut = true;
       return run;
     }
-    record.tuning_s = searched_s;
+    search.tuning_s = searched_s;
     finished_with = tolerance;
     // Errors are about proportional to the tolerance; 3 is a safety factor.
     const double factor = asked.target_error / estimate / 3;
@@ -239,16 +264,18 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
     refused = true;
   }
   result.time_s = seconds_since(start) - watched_s;
+  Memory& memory = result.memory;
+  if (heap::is_active()) memory.process_peak_heap_bytes = heap::peak_ever_bytes();
   if (const auto& program = result.solution.program) {  // its memory is not in our heap
     result.time_s -= program->not_solve_s;
-    if (program->peak_bytes > 0) result.peak_rss_bytes = program->peak_bytes;
+    if (program->peak_bytes > 0) memory.peak_rss_bytes = program->peak_bytes;
     return result;
   }
   if (heap::is_active()) {
-    result.peak_heap_bytes = watch.peak_bytes();
-    result.memory = watch.split(result.solution, blocks.system ? blocks.system->bytes() : 0);
+    memory.peak_heap_bytes = watch.peak_bytes();
+    memory.split = watch.split(result.solution, blocks.system ? blocks.system->bytes() : 0);
   }
-  if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
+  if (rss_is_reset) memory.peak_rss_bytes = rss::peak_bytes();
   if (refused) {
     result.solution = Solution();
     result.solution.status = Status::out_of_memory;
@@ -258,19 +285,21 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
 }
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
-  if (run.judged.empty()) run.judged.push_back(judge_.judged(blocks, run.solution));
+  if (run.judged.empty()) run.judged.push_back(judge_.judged(blocks.system.get(), run.solution));
 }
 
-void Workbench::write_fields(const Method& method, const Choice& choice,
-                             const AssembledBlocks& blocks, const Run& run, Record& record,
-                             const std::filesystem::path& file) {
+void Workbench::write_fields(const Case& asked, const Choice& choice, const AssembledBlocks& blocks,
+                             CaseResult& result, const std::filesystem::path& file) {
+  const Solution& solution = *result.solution;
+  const int count = count_of_steps(*problem_);
   remove_step_fields(file.parent_path(), file.filename());
-  if (record.load_steps == 1) {
-    if (judge_.is_answered(run.solution))
-      judge_.write_fields_of(method, *blocks.system, run.solution, record, file);
+  if (count == 1) {
+    if (judge_.is_answered(solution))
+      judge_.write_fields_of(asked.method, *blocks.system, solution, result.is_other_solution,
+                             file);
     return;
   }
-  if (run.judged.empty() || run.solution.status == Status::timeout) return;
+  if (result.steps.empty() || solution.status == Status::timeout) return;
   blocks.system->set_load_case(problem_);
   StepFields files(file.parent_path(), file.filename(), *problem_);
   const ActivityScope scope(board_, Activity::discretisation);
@@ -279,44 +308,12 @@ void Workbench::write_fields(const Method& method, const Choice& choice,
       choice.solve, *blocks.system, control_of(choice.settings, Activity::detail_run),
       [&](int step, const ContactSystem& posed, const Solution& answer) {
         const auto k = static_cast<std::size_t>(step);
-        if (answer.stress.empty() || k >= run.judged.size()) return;
-        record.steps[k].fields = files.write(step, own_fields(posed, answer), run.judged[k]);
-        if (step + 1 == record.load_steps)
-          judge_.write_fields_of(method, posed, answer, record, file);
+        if (answer.stress.empty() || k >= result.steps.size()) return;
+        result.steps[k].fields = files.write(step, own_fields(posed, answer), result.steps[k]);
+        if (step + 1 == count)
+          judge_.write_fields_of(asked.method, posed, answer, result.is_other_solution, file);
       },
       watched_s);
-}
-
-// The method's own.
-Verdict Workbench::verdict_of(const Run& run, const Record& record) {
-  Verdict verdict = {run.solution.status, run.solution.message};
-  if (record.tuning_cut && verdict.status != Status::ok)
-    verdict.add("the search was cut: see tuning_cut");
-  return verdict;
-}
-
-void Workbench::note_run(const Run& run, const Choice& choice, Record& record) {
-  const Solution& solution = run.solution;
-  note(solution, record);
-  if (choice.settings.tightened && choice.settings.tolerance > 0)
-    record.tolerance = choice.settings.tolerance;
-  if (choice.settings.histories)
-    for (const IterationHistory& history : solution.histories)
-      record.histories[history.what] = history.residual;
-  if (solution.done_fraction) {  // timeout in the solve itself: a lower bound
-    record.peak_heap_bytes = run.peak_heap_bytes;
-    record.peak_rss_bytes = run.peak_rss_bytes;
-    if (*solution.done_fraction > 0)
-      record.extrapolated_time_s = run.time_s / *solution.done_fraction;
-  }
-  if (record.load_steps > 1) record.steps = step_results(run.judged);
-}
-
-void Workbench::note_memory(const Run& run, Record& record) {
-  record.peak_heap_bytes = run.peak_heap_bytes;
-  record.peak_rss_bytes = run.peak_rss_bytes;
-  record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
-  if (run.memory) note(*run.memory, record);
 }
 
 TimedRun Workbench::timed(const Run& run) {

@@ -8,6 +8,13 @@
 
 namespace airybench {
 
+// What a method needs.
+struct AssembledBlocks {
+  // With the loads of the path's first or last step; null if there is no body.
+  std::unique_ptr<ContactSystem> system;
+  std::vector<double> assembly_samples_s;
+  std::int64_t heap_bytes = 0;  // that they hold; 0 without the heap probe
+};
 // Methods with the same key share their blocks: those of an AirySystem or not, and the degree of
 // the stresses.
 using BlocksKey = std::pair<bool, int>;
@@ -31,38 +38,34 @@ class Workbench {
     CaseSettings settings = {};
   };
   struct Examination {
-    Record record;
+    CaseResult result;
     Choice choice;
-    std::string program_log;  // of an external program
   };
   // Repeats an iterative method with tighter tolerances until its own error estimate is below the
   // target; the judge has no say in that. fields: file for the solution's fields, or empty.
   Examination examine(const Case& asked, const std::filesystem::path& fields);
-  void measure_memory(const Method& method, const Choice& choice, Record& record);
+  void measure_memory(const Method& method, const Choice& choice, CaseResult& result);
   TimedRun measure_time(const Method& method, const Choice& choice);
 
  private:
   struct Run {
     Solution solution;
     double time_s = 0;
-    std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes;
-    std::optional<MemorySplit> memory;
+    Memory memory;
     std::vector<JudgedStep> judged;  // if asked for; of a path every step that it reached
   };
   const AssembledBlocks& blocks(const Method& method);
+  AssembledBlocks assemble_and_measure(const Method& method) const;
   RunControl control_of(const CaseSettings& settings, Activity what) const;
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
-  Choice choose(const Case& asked, const AssembledBlocks& blocks, Record& record);
+  Choice choose(const Case& asked, const AssembledBlocks& blocks, Search& search);
   // Returns the run that meets the target, or the last; sets the choice's tolerance to match.
-  Run tighten(const AssembledBlocks& assembled, Choice& choice, Record& record);
-  void note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run, Record& record);
+  Run tighten(const AssembledBlocks& assembled, Choice& choice, Search& search);
+  Search::Attempt attempt_of(const Choice& choice, const AssembledBlocks& blocks, Run& run);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is done
   // Those of load steps by one more run, which is not measured.
-  void write_fields(const Method& method, const Choice& choice, const AssembledBlocks& blocks,
-                    const Run& run, Record& record, const std::filesystem::path& file);
-  static void note_run(const Run& run, const Choice& choice, Record& record);
-  static Verdict verdict_of(const Run& run, const Record& record);
-  static void note_memory(const Run& run, Record& record);
+  void write_fields(const Case& asked, const Choice& choice, const AssembledBlocks& blocks,
+                    CaseResult& result, const std::filesystem::path& file);
   static TimedRun timed(const Run& run);
 
   PosedProblem posed_;

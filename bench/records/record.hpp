@@ -76,12 +76,14 @@ struct Record {
 };
 
 // Sources of fields; take_over() needs their names only.
-struct AssembledBlocks;
+struct CaseResult;
 struct CaseSettings;
 struct Limits;
+struct Memory;
 struct MemorySplit;
 struct MeshExtent;
 struct Method;
+struct Search;
 struct Solution;
 struct Verification;
 struct elsewhere;  // no source: the code that measures sets the field

@@ -92,18 +92,6 @@ bool times_tie(const Record& a, const Record& b) {
          *b.time_low_s <= *a.time_high_s;
 }
 
-// Mesh and method together, of a path the step where that is largest. A displacement method has no
-// error_stress.
-static std::optional<double> total_error(const Record& r) {
-  if (!r.error_discretisation || !is_verified(r)) return {};
-  double largest = *r.error_discretisation;
-  if (r.steps.empty()) largest += r.error_stress.value_or(0);
-  for (const StepResult& step : r.steps)
-    if (const auto& of_mesh = step.of_mesh.error_discretisation)
-      largest = std::max(largest, *of_mesh + step.error_stress.value_or(0));
-  return largest;
-}
-
 bool misses_goal(const Record& r) {
   constexpr double rounding = 1e-6;
   return r.adapt_goal && r.error_total && *r.error_total > (1 + rounding) * *r.adapt_goal;
@@ -128,7 +116,6 @@ void summarise(Record& r) {
   summarise_stages(r);
   summarise_load_cases(r);
   r.outcome = outcome_of(r);
-  r.error_total = total_error(r);
 }
 
 }  // namespace airybench

@@ -37,10 +37,12 @@ double limit_s(const ActivityBoard& board, const Limits& limits) {
   return is_run(board.activity()) ? run_limit_s(board.activity(), limits) : phase_limit_s(limits);
 }
 
-void keep_log(const Case& c, const std::filesystem::path& out, const std::string& log) {
-  if (log.empty()) return;
+void keep_log(const Case& c, const std::filesystem::path& out, const CaseResult& result) {
+  if (!result.solution || !result.solution->program || result.solution->program->log.empty())
+    return;
   make_folder(out / "programs");
-  write_file_atomically(out / "programs" / (c.name().file() + ".txt"), log);
+  write_file_atomically(out / "programs" / (c.name().file() + ".txt"),
+                        result.solution->program->log);
 }
 
 void serve_case(Channel& channel, const Case& c, const Limits& limits,
@@ -49,7 +51,6 @@ void serve_case(Channel& channel, const Case& c, const Limits& limits,
   const heap::Backstop backstop(limits.memory_limit_bytes);
   const std::filesystem::path fields =
       c.settings.fields ? out / "fields" / c.name().file() : std::filesystem::path();
-  Record record;
   Workbench::Choice choice;
   while (const auto line = channel.receive()) {
     if (Command(*line).verb != "examine") {
@@ -58,19 +59,19 @@ void serve_case(Channel& channel, const Case& c, const Limits& limits,
       channel.send(json_text(to_json(run)));
       continue;
     }
+    CaseResult result;
     try {
-      auto examination = bench.examine(c, fields);
-      record = std::move(examination.record);
+      Workbench::Examination examination = bench.examine(c, fields);
+      result = std::move(examination.result);
       choice = std::move(examination.choice);
-      keep_log(c, out, examination.program_log);
+      keep_log(c, out, result);
     } catch (const FileError& error) {  // from a field or a log
-      record = blank_record(c, limits);
-      record.conclude({Status::machine_fault, error.what()});
+      result = {.verdict = {Status::machine_fault, error.what()}};
     }
-    if (is_measured(record) && !record.measured_once)
-      bench.measure_memory(c.method, choice, record);
-    record.runs_s = board.seconds_in_runs();
-    channel.send(json_text(to_json(record)));
+    if (is_measured(to_record(c, limits, result)) && !result.only_run)
+      bench.measure_memory(c.method, choice, result);
+    result.runs_s = board.seconds_in_runs();
+    channel.send(json_text(to_json(to_record(c, limits, result))));
   }
 }
 
@@ -88,10 +89,7 @@ void end_orphans(const std::map<std::size_t, CaseProcess>& processes) {
 }
 
 Record record_of_end(const Case& c, const Limits& limits, const TimedRun& last) {
-  Record record = blank_record(c, limits);
-  record.conclude(last.end);
-  record.runs_s = last.runs_s;
-  return record;
+  return to_record(c, limits, {.verdict = last.end, .runs_s = last.runs_s});
 }
 
 void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Limits& limits,
@@ -311,8 +309,8 @@ void IsolatedScene::prepare(std::size_t k) {
 }
 
 Record IsolatedScene::examine(std::size_t k) {
-  Record record = blank_record(*cases_[k], limits_);
-  if (record.status == Status::skipped) return record;
+  if (Record blank = blank_record(*cases_[k], limits_); blank.status == Status::skipped)
+    return blank;
   prepare_all();
   if (const auto broken = broken_assemblies_.find(blocks_key(cases_[k]->method));
       broken != broken_assemblies_.end())
@@ -326,8 +324,7 @@ Record IsolatedScene::examine(std::size_t k) {
     return record_of_defect(*cases_[k], limits_, wrong);
   }
   end_process();
-  record.conclude(why_no_process_);
-  return record;
+  return to_record(*cases_[k], limits_, {.verdict = why_no_process_});
 }
 
 TimedRun IsolatedScene::measure_time(std::size_t k) {
@@ -358,9 +355,7 @@ void IsolatedScene::end(std::size_t k) {
 }
 
 Record record_of_defect(const Case& c, const Limits& limits, const RecordError& wrong) {
-  Record record = blank_record(c, limits);
-  record.conclude({Status::crashed, wrong.what()});
-  return record;
+  return to_record(c, limits, {.verdict = {Status::crashed, wrong.what()}});
 }
 
 }  // namespace airybench

@@ -26,23 +26,44 @@ bool TotalError::is_unloaded(int step) const {
   return steps() > 1 && of_step_[static_cast<std::size_t>(step)].norm < rounding * largest_norm_;
 }
 
-std::optional<double> TotalError::relative(int step) const {
+std::optional<double> TotalError::of_mesh(int step) const {
   return is_unloaded(step) ? std::nullopt : of_step_[static_cast<std::size_t>(step)].relative;
 }
 
-std::optional<double> TotalError::relative() const {
+template <typename OfStep>
+std::optional<double> TotalError::largest(const OfStep& of_step) const {
   if (!flaw_.empty()) return {};
   std::optional<double> largest;
   for (int k = 0; k < steps(); ++k)
-    if (const auto own = relative(k)) largest = largest ? larger_error(*largest, *own) : *own;
+    if (const std::optional<double> error = of_step(k))
+      largest = largest ? larger_error(*largest, *error) : *error;
   return largest;
 }
 
-double TotalError::geometry() const {
-  const std::optional<double> largest = relative();
+std::optional<double> TotalError::of_mesh() const {
+  return largest([&](int step) { return of_mesh(step); });
+}
+
+std::optional<double> TotalError::relative() const {
+  return largest([&](int step) {
+    std::optional<double> error = of_mesh(step);
+    if (const auto k = static_cast<std::size_t>(step); error && k < of_method_.size())
+      *error += of_method_[k];
+    return error;
+  });
+}
+
+std::optional<int> TotalError::largest_step() const {
+  const std::optional<double> largest = of_mesh();
   for (int k = 0; largest && k < steps(); ++k)
-    if (relative(k) == largest) return of_step_[static_cast<std::size_t>(k)].geometry;
-  return 0;
+    if (const auto error = of_mesh(k); error && (*error == *largest || std::isnan(*error)))
+      return k;
+  return {};
+}
+
+double TotalError::geometry() const {
+  const std::optional<int> step = largest_step();
+  return step ? of_step_[static_cast<std::size_t>(*step)].geometry : 0;
 }
 
 }  // namespace airybench

@@ -12,18 +12,27 @@ class CaseBench : public Workbench {
  public:
   CaseBench(std::shared_ptr<const Problem> problem, const Options& options)
       : Workbench(problem, common_settings(options.run), options.limits),
+        limits_(options.limits),
         scene_{"", "", "", "", "{}", std::move(problem)},
         run_(options.run) {}
 
-  using Workbench::examine;
-  Examination examine(const Method& method, const std::filesystem::path& fields) {
-    return examine(asked(method), fields);
+  Record examine(const Method& method, const std::filesystem::path& fields) {
+    return to_record(asked(method), limits_, Workbench::examine(asked(method), fields).result);
   }
-  Examination examine(const Method& method, const StudyPoint& point) {
+  Record examine(const Method& method, const StudyPoint& point) {
     Case c = asked(method);
     c.settings = point.settings;
     c.knob = point.knob;
-    return examine(c, {});
+    return to_record(c, limits_, Workbench::examine(c, {}).result);
+  }
+  // With its memory run and, unless the method fails, one timed run.
+  Record measure(const Method& method) {
+    const Case c = asked(method);
+    auto [result, choice] = Workbench::examine(c, {});
+    if (is_measured(to_record(c, limits_, result))) measure_memory(method, choice, result);
+    Record record = to_record(c, limits_, result);
+    if (is_measured(record)) add_run(measure_time(method, choice), record);
+    return record;
   }
 
  private:
@@ -34,6 +43,7 @@ class CaseBench : public Workbench {
             .study = run_.study.name,
             .points = run_.study.points};
   }
+  const Limits& limits_;
   PosedScene scene_;
   RunSettings run_;
 };
@@ -41,7 +51,7 @@ class CaseBench : public Workbench {
 inline Record examined(std::shared_ptr<const Problem> problem, const Method& method,
                        Options options = {}) {
   options.limits.repetitions = 1;
-  return CaseBench(std::move(problem), options).examine(method, "").record;
+  return CaseBench(std::move(problem), options).examine(method, "");
 }
 inline Record examined(std::shared_ptr<const Problem> problem, const char* method,
                        const Options& options = {}) {
@@ -52,12 +62,7 @@ inline Record examined(std::shared_ptr<const Problem> problem, const char* metho
 inline Record measured(std::shared_ptr<const Problem> problem, const Method& method) {
   Options options;
   options.limits.repetitions = 1;
-  CaseBench bench(std::move(problem), options);
-  auto [record, choice, log] = bench.examine(method, "");
-  if (!is_measured(record)) return record;
-  bench.measure_memory(method, choice, record);
-  add_run(bench.measure_time(method, choice), record);
-  return record;
+  return CaseBench(std::move(problem), options).measure(method);
 }
 
 }  // namespace airybench::testing

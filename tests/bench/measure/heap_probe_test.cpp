@@ -242,27 +242,25 @@ TEST(HeapProbe, AssemblyThatIsRefusedMemoryIsOutOfMemory) {
   const Method method = select_methods("3STEPD").front();
   {
     const heap::Limit limit(heap::live_bytes());
-    const Record refused = bench.examine(method, "").record;
+    const Record refused = bench.examine(method, "");
     EXPECT_EQ(refused.status, Status::out_of_memory) << refused.status_reason;
     EXPECT_EQ(refused.status_reason, "assembly: an allocation was refused");
   }
-  EXPECT_EQ(bench.examine(method, "").record.status, Status::ok);
+  EXPECT_EQ(bench.examine(method, "").status, Status::ok);
 }
 
 // Wherever memory runs out, the case is out_of_memory and the process goes on.
 TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
   testing::CaseBench bench(testing::posed(Scene{}, testing::small_tooth(10, 8)), options_);
-  auto [free, choice, log] = bench.examine(method_, "");
-  bench.measure_memory(method_, choice, free);
-  const std::int64_t peak = free.peak_heap_bytes.value();
+  const std::int64_t peak = bench.measure(method_).peak_heap_bytes.value();
   constexpr int parts = 30;
   for (int part = 0; part < parts; ++part) {
     options_.limits.memory_limit_bytes = peak * part / parts;
-    const Record record = bench.examine(method_, "").record;
+    const Record record = bench.examine(method_, "");
     EXPECT_EQ(record.status, Status::out_of_memory) << part << "/30 of " << peak;
   }
   options_.limits.memory_limit_bytes = peak + MiB;
-  EXPECT_EQ(bench.examine(method_, "").record.status, Status::ok);
+  EXPECT_EQ(bench.examine(method_, "").status, Status::ok);
 }
 
 TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {

@@ -8,10 +8,10 @@
 #include <array>
 #include <csignal>
 
+#include "bench/measure/case_result.hpp"
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/measure/noise_kernel.hpp"
-#include "bench/measure/record_notes.hpp"
 #include "tests/support/contains.hpp"
 
 namespace airybench::instruments_test {

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "bench/measure/remarks.hpp"
 #include "bench/records/summary.hpp"
 #include "tests/bench/measure/examined.hpp"
 #include "tests/support/contains.hpp"
@@ -46,7 +47,8 @@ std::vector<double> errors_of_steps(const Record& record) {
 
 std::string remarks(const Record& record) {
   Verdict verdict;
-  for (const std::string& remark : remarks_on_half_steps(record)) verdict.add(remark);
+  for (const std::string& remark : remarks_on_half_steps(record.steps, record.steps_in_halves))
+    verdict.add(remark);
   return verdict.reason;
 }
 

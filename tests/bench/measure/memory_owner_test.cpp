@@ -229,8 +229,7 @@ TEST_P(CountedMemory, IsWhatIsMeasured) {
   // Ten times the iterations of the others.
   const char* mesh = method.name.ends_with("schur=sparse") ? "Mesh0" : "Mesh1";
   testing::CaseBench bench(testing::posed(Scene{}, testing::catalogue_mesh(mesh)), options);
-  auto [record, choice, log] = bench.examine(method, "");
-  bench.measure_memory(method, choice, record);
+  const Record record = bench.measure(method);
   ASSERT_FALSE(record.memory_by_owner.is_null()) << record.status_reason;
   EXPECT_FALSE(record.memory_counts_differ) << record.memory_by_owner.dump(1);
   double at_peak = 0, held = 0, counted = 0;

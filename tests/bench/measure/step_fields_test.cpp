@@ -37,7 +37,7 @@ Record examined(int steps, const fs::path& file, const char* method = "HYBRID") 
   options.limits.repetitions = 1;
   options.run.cases.fields = true;
   testing::CaseBench bench(path_of(steps), options);
-  return bench.examine(select_methods(method).front(), file).record;
+  return bench.examine(select_methods(method).front(), file);
 }
 
 std::vector<double> column(const fs::path& file, const std::string& name) {
@@ -117,7 +117,7 @@ TEST(StepFields, OfTwoBodiesForcesAndMotionAreThoseOfTheMovedOne) {
     options.run.cases.fields = true;
     const fs::path name = folder / support;
     testing::CaseBench bench(testing::posed(scene, testing::two_blocks(7, 10)), options);
-    const Record record = bench.examine(select_methods("HYBRID").front(), name).record;
+    const Record record = bench.examine(select_methods("HYBRID").front(), name);
     ASSERT_EQ(record.status, Status::ok) << record.status_reason;
     const fs::path table = name.string() + ".steps.csv";
     EXPECT_EQ(column(table, "piece"), std::vector<double>(2, piece));

@@ -163,7 +163,7 @@ TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
   testing::CaseBench bench(mesh0(), options);
   const Method alm = method("ALM:r=20,rho=20");
   const StudyPoint first = error_points(alm, common_settings(options.run)).front();
-  const Record record = bench.examine(alm, first).record;
+  const Record record = bench.examine(alm, first);
   EXPECT_EQ(record.status, Status::not_converged);
   EXPECT_TRUE(is_measured(record));
   EXPECT_EQ(record.samples_s.size(), 1u);

@@ -78,7 +78,7 @@ TEST_P(ErrorPoints, AreNoWorseThanCommitted) {
           point.settings.stop == Stop::paper ? "paper's stop" : point.knob.name;
       const ExpectedTable::Row key = {mesh, method.name, knob, text(point.knob.value)};
       SCOPED_TRACE(fmt::format("{}, {}, {} {}", mesh, method.name, knob, text(point.knob.value)));
-      const ExpectedTable::Row found = values_of(bench.examine(method, point).record);
+      const ExpectedTable::Row found = values_of(bench.examine(method, point));
       const ExpectedTable::Row* expected = table().find(key);
       if (update != Update::no)
         table().note(

@@ -159,7 +159,7 @@ TEST_P(StabilityOutcomes, AreNoWorseThanCommitted) {
     }
     if (update != Update::anew && expected && expected->front() == "left out") continue;
     const auto start = std::chrono::steady_clock::now();
-    const Record record = bench.examine(method, "").record;
+    const Record record = bench.examine(method, "");
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     if (update == Update::no) {
       compare(scene_name + "/" + method.name, Expected(*expected), record);

@@ -34,7 +34,7 @@ Record examined(const std::shared_ptr<const Problem>& problem, const Method& met
   Options options = options_for(study);
   options.run.cases.stop = stop;
   testing::CaseBench bench(problem, options);
-  Record record = bench.examine(method, "").record;
+  Record record = bench.examine(method, "");
   record.outcome = outcome_of(record);
   return record;
 }

@@ -98,8 +98,8 @@ TEST(RandomScenes, NoMethodIsWrongAndSaysOk) {
         wanted.is_asked_for ? 20 : 1;  // a timeout is no claim, and no failure
     testing::CaseBench bench(problem, options);
     for (const Method& method : methods(k))
-      hold(fmt::format("{} ({}), {}", k, scene.about, method.name),
-           bench.examine(method, "").record, tally);
+      hold(fmt::format("{} ({}), {}", k, scene.about, method.name), bench.examine(method, ""),
+           tally);
   }
   std::cout << fmt::format("tried {}, scenes that cannot be posed {}", tally.tried,
                            tally.not_posed);

@@ -23,9 +23,22 @@ TEST(TotalError, IsTheLargestOfTheSteps) {
   EXPECT_DOUBLE_EQ(total.relative().value(), 0.02);
   total.add(error_of(0.03, 0.01, 1), "second: ");
   EXPECT_DOUBLE_EQ(total.relative().value(), 0.2);
-  EXPECT_DOUBLE_EQ(total.relative(0).value(), 0.02);
+  EXPECT_DOUBLE_EQ(total.of_mesh(0).value(), 0.02);
   EXPECT_DOUBLE_EQ(total.parts()[0], 0.0003 + 0.03);
   EXPECT_DOUBLE_EQ(total.parts()[1], 0.0001 + 0.01);
+}
+
+TEST(TotalError, OfMeshAndMethodIsTheirSumInTheSameStep) {
+  TotalError total;
+  total.add(error_of(3, 1, 100), "first: ");
+  total.add(error_of(0.03, 0.01, 1), "second: ");
+  total.add(error_of(1e-22, 1e-22, 1e-11), "unloaded: ");
+  total.set_method_errors({0.01, 0.001, 1});
+  EXPECT_DOUBLE_EQ(total.relative().value(), 0.201);
+  EXPECT_DOUBLE_EQ(total.of_mesh().value(), 0.2);
+  total.set_method_errors({0.3});  // of a path that ended early
+  EXPECT_DOUBLE_EQ(total.relative().value(), 0.32);
+  EXPECT_EQ(total.largest_step(), 1);
 }
 
 TEST(TotalError, AnUnloadedStepHasNoneAndIsNotRefinedFor) {
@@ -33,7 +46,7 @@ TEST(TotalError, AnUnloadedStepHasNoneAndIsNotRefinedFor) {
   total.add(error_of(3, 1, 100), "");
   total.add(error_of(1e-22, 1e-22, 1e-11), "");
   EXPECT_TRUE(total.is_unloaded(1));
-  EXPECT_FALSE(total.relative(1));
+  EXPECT_FALSE(total.of_mesh(1));
   EXPECT_DOUBLE_EQ(total.relative().value(), 0.02);
   EXPECT_DOUBLE_EQ(total.parts()[0] + total.parts()[1], 0.0004);
 }
@@ -45,7 +58,7 @@ TEST(TotalError, AFlawLeavesNoError) {
   flawed.flaw = "the contact forces pull";
   total.add(flawed, "load step 2 of 2: ");
   EXPECT_FALSE(total.relative());
-  EXPECT_FALSE(total.relative(1));
+  EXPECT_FALSE(total.of_mesh(1));
   EXPECT_EQ(total.flaw(), "load step 2 of 2: the contact forces pull");
 }
 
