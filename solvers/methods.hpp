@@ -21,8 +21,8 @@ Method condensed_contact();
 
 // The methods that a comma-separated list selects: names of the table and globs, in the table's
 // order and none twice; then general names that are not in the table, as they come:
-//   3STEPCG:<preconditioner>[,refine=yes][,lanes=1]
-//   SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1]
+//   3STEPCG:<preconditioner>[,refine=yes]
+//   SYMMLQ:<preconditioner>[,refine=yes]
 //   ALM:r=<r>,rho=<rho>
 //   HYBRID:k=<degree>, HYBRID:CHOLMOD,k=<degree>, HYBRID:MUMPS,k=<degree>
 // others: stand behind the table's. degree: of the stresses of HYBRID, HYBRID:CHOLMOD and

@@ -30,8 +30,8 @@ void print_list(const std::vector<Method>& others) {
                same);
   }
   fmt::print(
-      "also: 3STEPCG:<preconditioner>[,refine=yes][,lanes=1],\n"
-      "      SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1], ALM:r=<r>,rho=<rho>;\n"
+      "also: 3STEPCG:<preconditioner>[,refine=yes], SYMMLQ:<preconditioner>[,refine=yes],\n"
+      "      ALM:r=<r>,rho=<rho>;\n"
       "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE;\n"
       "      EXTERNAL:<name> of the declarations of --external;\n"
       "      with --problem CONDENSED, the contact law alone by {}, and "

@@ -5,7 +5,6 @@
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/dense_factors.hpp"
 #include "solvers/krylov/symmetric_product.hpp"
-#include "solvers/preconditioners/drop_tolerance.hpp"
 
 namespace airybench {
 namespace {
@@ -26,9 +25,10 @@ void multiply_transposed(const SparseRows& C, const double* x, double* y) {
         y[entry.col() * lanes + l] += entry.value() * x[i * lanes + l];
 }
 
-// C S*⁻¹ Cᵀ, dense, column by column.
-Eigen::MatrixXd dense_schur(const AirySystem& system, const Preconditioner& S_star, int lanes,
-                            int threads, const Deadline& deadline) {
+// L Lᵀ = C S*⁻¹ Cᵀ, dense, some columns at once.
+Eigen::MatrixXd factor_schur(const AirySystem& system, const Preconditioner& S_star, int threads,
+                             const Deadline& deadline) {
+  constexpr int lanes = max_lanes;
   const int n = system.n(), m = system.n_f() + system.n_c();
   Eigen::MatrixXd K(m, m);
   in_parallel(threads, m, [&](int begin, int end) {
@@ -51,45 +51,9 @@ Eigen::MatrixXd dense_schur(const AirySystem& system, const Preconditioner& S_st
       deadline.check("the Schur block");
     }
   });
-  return (K + K.transpose()) / 2;
-}
-
-struct SchurFactor {
-  Eigen::MatrixXd dense;    // L, or
-  IncompleteFactor sparse;  // complete
-  std::size_t bytes() const {
-    return static_cast<std::size_t>(dense.size()) * sizeof(double) + sparse.bytes();
-  }
-  std::int64_t entries() const {  // the dense one's lower triangle
-    return dense.rows() * (dense.rows() + 1) / 2 + static_cast<std::int64_t>(sparse.entries());
-  }
-};
-
-SchurFactor factor_schur(const AirySystem& system, const Preconditioner& S_star, SchurBlock schur,
-                         int lanes, int threads, const Deadline& deadline) {
-  SchurFactor factor;
-  if (schur == SchurBlock::dense) {
-    factor.dense = dense_schur(system, S_star, lanes, threads, deadline);
-    if (!factorise_in_place(factor.dense))
-      throw Breakdown("SYMMLQ: the Schur block is not positive definite");
-    return factor;
-  }
-  SparseRows C(system.n_f() + system.n_c(), system.n());
-  C.reserve(system.C_F.nonZeros() + system.C_C.nonZeros());
-  for (int i = 0; i < C.rows(); ++i) {
-    C.startVec(i);
-    for (auto entry = constraint_row(system, i); entry; ++entry)
-      C.insertBack(i, entry.col()) = entry.value();
-  }
-  C.finalize();
-  const SparseColumns product = C * SparseRows(C.transpose());
-  try {
-    const SparseColumns lower = product.triangularView<Eigen::Lower>();
-    factor.sparse = drop_tolerance_factor(lower, 0, deadline);
-  } catch (const Breakdown&) {
-    throw Breakdown("SYMMLQ: the Schur block C Cᵀ is not positive definite");
-  }
-  return factor;
+  K = ((K + K.transpose()) / 2).eval();
+  if (!factorise_in_place(K)) throw Breakdown("SYMMLQ: the Schur block is not positive definite");
+  return K;
 }
 
 }  // namespace
@@ -110,34 +74,25 @@ SymmetricOperator saddle_operator(const AirySystem& system) {
 }
 
 Preconditioner saddle_preconditioner(const AirySystem& system, const Preconditioner& S_star,
-                                     SchurBlock schur, int lanes, int threads,
-                                     const Deadline& deadline) {
-  const auto factor = std::make_shared<const SchurFactor>(
-      factor_schur(system, S_star, schur, lanes, threads, deadline));
+                                     int threads, const Deadline& deadline) {
+  const auto factor =
+      std::make_shared<const Eigen::MatrixXd>(factor_schur(system, S_star, threads, deadline));
   const Eigen::Index n = system.n(), m = system.n_f() + system.n_c();
-  const auto applier = [factor, n, m, S_star](int own_lanes) -> Apply {
-    return [factor, n, m, apply = S_star.applier(own_lanes), top = LaneBlock(n, own_lanes),
-            bottom = LaneBlock(m, own_lanes),
-            columns = Eigen::MatrixXd(m, own_lanes)](LaneBlock& X) mutable {
+  Preconditioner result = S_star;
+  result.applier = [factor, n, m, S_star](int lanes) -> Apply {
+    return [factor, n, m, apply = S_star.applier(lanes), top = LaneBlock(n, lanes),
+            columns = Eigen::MatrixXd(m, lanes)](LaneBlock& X) mutable {
       top = X.topRows(n);
       apply(top);
       X.topRows(n) = top;
-      if (factor->dense.size() > 0) {
-        columns = X.bottomRows(m);
-        solve_by_cholesky(factor->dense, columns);
-        X.bottomRows(m) = columns;
-      } else {
-        bottom = X.bottomRows(m);
-        solve_in_place(factor->sparse, bottom);
-        X.bottomRows(m) = bottom;
-      }
+      columns = X.bottomRows(m);
+      solve_by_cholesky(*factor, columns);
+      X.bottomRows(m) = columns;
     };
   };
-  Preconditioner result = S_star;
-  result.applier = applier;
-  result.bytes += factor->bytes();
-  result.entries += factor->entries();
-  result.workspace_rows += n + 2 * m;
+  result.bytes += static_cast<std::size_t>(factor->size()) * sizeof(double);
+  result.entries += m * (m + 1) / 2;  // the lower triangle
+  result.workspace_rows += n + m;
   return result;
 }
 

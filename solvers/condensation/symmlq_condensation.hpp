@@ -7,21 +7,19 @@
 // λ' = G − D F_C, so the right-hand side above gives G and unit vectors in the last rows give −D:
 // 1 + n_c systems. The preconditioner is
 //
-//   blockdiag(S*, C S*⁻¹ Cᵀ)   dense; with S* = S the preconditioned matrix has three eigenvalues
-//                              (Murphy, Golub & Wathen 2000, doi:10.1137/S1064827599355153), or
-//   blockdiag(S*, C Cᵀ)        sparse: C diag(S)⁻¹ Cᵀ of the equilibrated S
+//   blockdiag(S*, C S*⁻¹ Cᵀ)
+//
+// With S* = S the preconditioned matrix has three eigenvalues (Murphy, Golub & Wathen 2000,
+// doi:10.1137/S1064827599355153).
 #pragma once
 
 #include "solvers/krylov/symmlq.hpp"
 
 namespace airybench {
 
-enum class SchurBlock { dense, sparse };
-
 SymmetricOperator saddle_operator(const AirySystem& system);
 // S_star: preconditioner of S. Throws Breakdown when the Schur block is not positive definite.
 Preconditioner saddle_preconditioner(const AirySystem& system, const Preconditioner& S_star,
-                                     SchurBlock schur, int lanes, int threads,
-                                     const Deadline& deadline = {});
+                                     int threads, const Deadline& deadline = {});
 
 }  // namespace airybench

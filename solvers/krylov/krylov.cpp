@@ -47,11 +47,10 @@ void Lanes::check_time(const Deadline& deadline, const char* solver, const LaneS
   throw TimeoutReached(message.str(), (finished + digits) / (end_ - begin_), largest);
 }
 
-KrylovOptions krylov_options(const RunControl& control, int lanes) {
+KrylovOptions krylov_options(const RunControl& control) {
   KrylovOptions options;
   options.tolerance = control.tolerance;
   options.max_iterations = control.max_iterations.value_or(options.max_iterations);
-  options.lanes = lanes;
   options.threads = control.threads;
   return options;
 }

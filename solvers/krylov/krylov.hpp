@@ -49,7 +49,7 @@ struct KrylovSummary {
   void add(const KrylovSummary& other);
 };
 
-KrylovOptions krylov_options(const RunControl& control, int lanes);
+KrylovOptions krylov_options(const RunControl& control);
 // Iterations, history and, when the tolerance was not met, status and message into the solution.
 void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovOptions& options,
                  const RunControl& control, Solution& solution);

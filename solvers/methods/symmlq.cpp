@@ -9,16 +9,16 @@ namespace airybench {
 namespace {
 
 Solution solve_symmlq(const AirySystem& system, const RunControl& control,
-                      const MakePreconditioner& make, SchurBlock schur, int lanes, Refine refine) {
+                      const MakePreconditioner& make, Refine refine) {
   const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
   Solution solution;
   const Preconditioner preconditioner =
       run_stage(solution.times, Stage::precondition, MemoryOwner::preconditioner, [&] {
-        return saddle_preconditioner(system, make(system.S, control.deadline), schur, lanes,
-                                     control.threads, control.deadline);
+        return saddle_preconditioner(system, make(system.S, control.deadline), control.threads,
+                                     control.deadline);
       });
   note_preconditioner(preconditioner, solution);
-  const KrylovOptions options = krylov_options(control, lanes);
+  const KrylovOptions options = krylov_options(control);
   const SymmetricOperator A = saddle_operator(system);
   solution.storage[MemoryOwner::iteration] =
       iteration_bytes(options, n_c + 1, symmlq_vectors * A.n + preconditioner.workspace_rows);
@@ -92,15 +92,12 @@ Solution solve_symmlq(const AirySystem& system, const RunControl& control,
 
 Method symmlq(GeneralName name) {
   const MakePreconditioner make = name.preconditioner();
-  const bool dense = name.one_of("schur", "dense", {"dense", "sparse"}) == "dense";
-  const SchurBlock schur = dense ? SchurBlock::dense : SchurBlock::sparse;
-  const int lanes = name.lanes();
   const Refine refine = name.refine();
-  name.refuse_rest("schur, lanes, refine");
+  name.refuse_rest("refine");
   Method method = krylov_method(name, "SYMMLQ condensation, block preconditioner with ");
   method.condenses_contact_only = true;
   method.solve = on_airy_system([=](const AirySystem& system, const RunControl& control) {
-    return solve_symmlq(system, control, make, schur, lanes, refine);
+    return solve_symmlq(system, control, make, refine);
   });
   return method;
 }

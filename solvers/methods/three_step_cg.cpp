@@ -7,13 +7,13 @@ namespace airybench {
 namespace {
 
 Solution solve_three_step_cg(const AirySystem& system, const RunControl& control,
-                             const MakePreconditioner& make, int lanes, Refine refine) {
+                             const MakePreconditioner& make, Refine refine) {
   Solution solution;
   const Preconditioner preconditioner =
       run_stage(solution.times, Stage::precondition, MemoryOwner::preconditioner,
                 [&] { return make(system.S, control.deadline); });
   note_preconditioner(preconditioner, solution);
-  const KrylovOptions options = krylov_options(control, lanes);
+  const KrylovOptions options = krylov_options(control);
   solution.storage[MemoryOwner::iteration] =
       iteration_bytes(options, system.n_f() + system.n_c(),
                       conjugate_gradient_vectors * system.n() + preconditioner.workspace_rows);
@@ -38,12 +38,11 @@ Solution solve_three_step_cg(const AirySystem& system, const RunControl& control
 
 Method three_step_cg(GeneralName name) {
   const MakePreconditioner make = name.preconditioner();
-  const int lanes = name.lanes();
   const Refine refine = name.refine();
-  name.refuse_rest("lanes, refine");
+  name.refuse_rest("refine");
   Method method = krylov_method(name, "three-step condensation, conjugate gradients with ");
   method.solve = on_airy_system([=](const AirySystem& system, const RunControl& control) {
-    return solve_three_step_cg(system, control, make, lanes, refine);
+    return solve_three_step_cg(system, control, make, refine);
   });
   return method;
 }

@@ -1,4 +1,4 @@
-// Names that say how a method is made: "3STEPCG:DTIC3", "SYMMLQ:SSOR0.7,schur=sparse",
+// Names that say how a method is made: "3STEPCG:DTIC3", "SYMMLQ:SSOR0.7,refine=yes",
 // "ALM:r=20,rho=32". A family, a preconditioner, options.
 #pragma once
 
@@ -28,7 +28,6 @@ class GeneralName {
                      std::initializer_list<const char*> allowed);
   double positive(const std::string& key);
   int whole(const std::string& key, int otherwise, int least, int most);
-  int lanes() { return one_of("lanes", "16", {"1", "16"}) == "1" ? 1 : max_lanes; }
   Refine refine() {
     return one_of("refine", "no", {"yes", "no"}) == "yes" ? Refine::yes : Refine::no;
   }

@@ -140,12 +140,12 @@ class PaperFiguresTest(drawn.FiguresTest):
             row |= made_up.of_method(ALIASES.get(row["method"], row["method"]))
         rows[-1] |= UNFINISHED | dict(status="timeout", done_fraction=0.03)
         out, words = self.draw([*rows, case("Mesh1", "SYMMLQ:NONE"),
-                                case("Mesh3", "SYMMLQ:DTIC3,schur=sparse"),
+                                case("Mesh3", "SYMMLQ:DTIC3,refine=yes"),
                                 case("Mesh3", "SYMMLQ:DTIC3")])
         self.assertIn("figure3.svg, .png, .csv: 28 cases", out)
         self.assertIn("Mesh3, 6287 degrees of freedom", words["figure3"])
         self.assertIn("No estimate: 3STEPCG:NONE (timeout, 3 % done)", words["figure3"])
-        self.assertIn("Not drawn: SYMMLQ:DTIC3,schur=sparse (its preconditioner with other options is).",
+        self.assertIn("Not drawn: SYMMLQ:DTIC3,refine=yes (its preconditioner with other options is).",
                       words["figure3"])
         self.assertNotIn("no figure", out)  # all_methods has it
 

@@ -14,7 +14,7 @@ from running import FolderTest
 from selection import compared, given, has_other_solver, sharing_axes
 
 # As in tests/bench/records/case_name_test.cpp.
-SWEPT = "Mesh0/default/SYMMLQ:SSOR0.7,schur=sparse/study=error/contact_sweeps=1e-12/stop=paper"
+SWEPT = "Mesh0/default/SYMMLQ:SSOR0.7,refine=yes/study=error/contact_sweeps=1e-12/stop=paper"
 
 
 class ReaderTest(FolderTest):
@@ -242,10 +242,10 @@ class CaseNamesTest(unittest.TestCase):
         self.assertEqual(name("HYBRID", contact_solver="admm"), "Mesh0/default/HYBRID/contact=admm")
         swept = dict(study="error", knob="contact sweeps", stop="paper", contact_solver="gauss-seidel",
                      error_discretisation=0.1, error_total=0.1)
-        self.assertEqual(name("SYMMLQ:SSOR0.7,schur=sparse", knob_value=1e-12, **swept), SWEPT)
+        self.assertEqual(name("SYMMLQ:SSOR0.7,refine=yes", knob_value=1e-12, **swept), SWEPT)
         self.assertTrue(name("HYBRID", knob_value=30.0, **swept).endswith("_sweeps=30/stop=paper"))
 
     def test_of_files(self) -> None:
-        self.assertEqual(case_of_file("Mesh0--default--SYMMLQ+SSOR0.7,schur=sparse--study=error--"
+        self.assertEqual(case_of_file("Mesh0--default--SYMMLQ+SSOR0.7,refine=yes--study=error--"
                                       "contact_sweeps=1e-12--stop=paper"), SWEPT)
         self.assertEqual(case_of_file("%2Da%2D--b~%2D%2Dc%25--d-e"), "-a-/b+--c%/d-e")

@@ -150,9 +150,9 @@ TEST(Command, InterleavedRepetitionsAreAllRecorded) {
 TEST(Command, GeneralNamesAreKeptInTheRecords) {
   const BenchCommand bench;
   const bool few = testing::sanitized;  // iterations
-  const std::vector<std::string> names = {
-      "ALM:r=20,rho=32", few ? "SYMMLQ:SKY,lanes=1" : "SYMMLQ:SSOR0.7,schur=sparse",
-      few ? "3STEPCG:SKY,lanes=1" : "3STEPCG:FLIC2,lanes=1"};
+  const std::vector<std::string> names = {"ALM:r=20,rho=32",
+                                          few ? "SYMMLQ:SKY,refine=yes" : "SYMMLQ:FLIC2,refine=yes",
+                                          few ? "3STEPCG:SKY,refine=yes" : "3STEPCG:SSOR0.7"};
   const CommandResult result =
       bench.run("--mesh=Mesh0 --repetitions=1 --out=o --method=" + names[0] + "," + names[1] + "," +
                 names[2]);

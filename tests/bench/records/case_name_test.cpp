@@ -18,14 +18,13 @@ namespace {
 
 TEST(CaseName, IsReadAsItIsWritten) {
   const CaseName name{
-      "Mesh0",     "default", "SYMMLQ:SSOR0.7,schur=sparse", "error", "contact sweeps", 1e-12,
+      "Mesh0",     "default", "SYMMLQ:SSOR0.7,refine=yes", "error", "contact sweeps", 1e-12,
       Stop::paper, {}};
-  EXPECT_EQ(
-      name.text(),
-      "Mesh0/default/SYMMLQ:SSOR0.7,schur=sparse/study=error/contact_sweeps=1e-12/stop=paper");
+  EXPECT_EQ(name.text(),
+            "Mesh0/default/SYMMLQ:SSOR0.7,refine=yes/study=error/contact_sweeps=1e-12/stop=paper");
   EXPECT_EQ(
       name.file(),
-      "Mesh0--default--SYMMLQ+SSOR0.7,schur=sparse--study=error--contact_sweeps=1e-12--stop=paper");
+      "Mesh0--default--SYMMLQ+SSOR0.7,refine=yes--study=error--contact_sweeps=1e-12--stop=paper");
   const auto read = case_name_of(name.text());
   ASSERT_TRUE(read);
   EXPECT_EQ(read->method, name.method);
