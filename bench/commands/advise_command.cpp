@@ -30,9 +30,9 @@ namespace {
 
 constexpr const char* advise_footer = R"(
 The mesh is adapted until the error is met; on what it becomes, methods are measured, as far as the budget goes.
-Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, forecast beyond, with
-a range, by the growth of earlier records; its error by a power law, which is optimistic. Earlier records are taken to be of this machine's
-speed after that measurement. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv,
+Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, beyond that
+measurement scaled by n log n; its error by a power law, which is optimistic. Earlier records are taken to be of this machine's
+speed after it. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv,
 records, meshes, fields.
 
 Exit status  0  a measured row meets the error
@@ -126,33 +126,28 @@ double unknowns_after(const Record& coarse, const Record& fine, double steps) {
   return a * std::pow(4, steps) + b * std::pow(2, steps);
 }
 
-std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine, double error,
-                                       const std::vector<Record>& past) {
-  constexpr double max_unknowns = 1e9, widest = 30;  // highest over lowest time that are of use
+// What refining everywhere until the error is met would take. Its error is the power law of the
+// two.
+std::optional<Advice> scaled_uniform(const Record& coarse, const Record& fine, double error) {
+  constexpr double max_unknowns = 1e9;
   if (!coarse.error_total || !fine.error_total || *fine.error_total >= *coarse.error_total)
     return {};
   const double gain = *fine.error_total / *coarse.error_total;
   const double more = std::ceil(std::log(error / *fine.error_total) / std::log(gain));
   const double n_phi = unknowns_after(coarse, fine, 1 + more);
   if (more < 1 || !(n_phi < max_unknowns)) return {};
-  Record forecast;
-  forecast.conclude({Status::ok, ""});
-  const std::string mesh = coarse.mesh.substr(0, coarse.mesh.rfind('+'));
-  forecast.mesh = fmt::format("{}+refine{:g}", mesh, 1 + more);
-  forecast.method = fine.method;
-  forecast.n_phi = std::llround(n_phi);
-  forecast.error_total = *fine.error_total * std::pow(gain, more);
-  const Prediction expected = grown(fine, *forecast.n_phi, past);
-  const std::optional<Estimate>& time_s = expected.time_s;
-  if (!time_s || time_s->high > widest * time_s->low)
-    return Advice{forecast, "forecast: no earlier record is nearly as large", ""};
-  forecast.time_s = time_s->value;
-  if (const std::optional<Estimate>& heap = expected.peak_heap_bytes)
-    forecast.peak_heap_bytes = std::llround(heap->value);
-  return Advice{forecast,
-                fmt::format("forecast: {} to {}, the error at best", show_seconds(time_s->low),
-                            show_seconds(time_s->high)),
-                ""};
+  Advice advice{fine, fmt::format("{} scaled by n log n, the error at best", fine.mesh), ""};
+  Record& scaled = advice.record;
+  scaled.mesh =
+      fmt::format("{}+refine{:g}", coarse.mesh.substr(0, coarse.mesh.rfind('+')), 1 + more);
+  scaled.n_phi = std::llround(n_phi);
+  scaled.error_total = *fine.error_total * std::pow(gain, more);
+  scaled.adapt_time_s.reset();
+  const double times = growth(*fine.n_phi, *scaled.n_phi);
+  if (scaled.time_s) *scaled.time_s *= times;
+  if (scaled.peak_heap_bytes)
+    scaled.peak_heap_bytes = std::llround(times * static_cast<double>(*scaled.peak_heap_bytes));
+  return advice;
 }
 
 // Why a method is not worth a measurement next to the fastest one; empty: it is.
@@ -297,8 +292,7 @@ int advise_command(int argc, const char* const* argv) {
   const bool met = rows.front().meets(goal);
   for (const Record& record : uniform) rows.push_back(advice_of(record, options, false));
   if (is_refined)
-    if (const auto forecast = forecast_uniform(uniform[0], uniform[1], goal, past))
-      rows.push_back(*forecast);
+    if (const auto scaled = scaled_uniform(uniform[0], uniform[1], goal)) rows.push_back(*scaled);
   rows.insert(rows.end(), left_out.begin(), left_out.end());
   fmt::print("\n{}\n", table_of(rows));
   const auto in_displacements = std::ranges::find_if(rows, [](const Advice& row) {

@@ -14,26 +14,16 @@
 namespace airybench {
 namespace {
 
-using RecordList = std::vector<const Record*>;
-
-// `of` is empty if a record lacks the value. The rest are least standard deviations of its
-// logarithm: of a case between runs on a busy machine, of power laws of direct and of iterative
-// methods, and of another method's values.
+// `of` is empty if a record lacks the value. The rest are standard deviations of its logarithm: of
+// a case between runs on a busy machine, and of another scene's, another method's or an
+// extrapolated value, which is trusted to a factor of four.
 struct Quantity {
   std::optional<double> (*of)(const Record&);
-  double measured, direct, iterative, relative;
+  double measured, relative;
 };
 
-// Calibration: 52 of the 54 cases of direct methods on Mesh5..Mesh7 in results/paper and
-// results/direct lie in the interval from the folder's other meshes. An extrapolated timeout and a
-// relative are trusted to a factor of four.
 constexpr Quantity time_quantity = {
-    [](const Record& r) { return r.time_s ? r.time_s : r.extrapolated_time_s; }, 0.15, 0.15, 0.3,
-    0.7};
-// Zero means no tuning and says nothing about its growth.
-constexpr Quantity tuning_quantity = {
-    [](const Record& r) { return r.tuning_s.value_or(0) > 0 ? r.tuning_s : std::nullopt; }, 0.15,
-    0.15, 0.3, 0.7};
+    [](const Record& r) { return r.time_s ? r.time_s : r.extrapolated_time_s; }, 0.15, 0.7};
 constexpr Quantity heap_quantity = {
     [](const Record& r) {
       // A timeout's is a lower bound.
@@ -41,19 +31,17 @@ constexpr Quantity heap_quantity = {
           r.status == Status::timeout ? 0. : static_cast<double>(r.peak_heap_bytes.value_or(0));
       return bytes > 0 ? std::optional(bytes) : std::nullopt;
     },
-    0.01, 0.1, 0.1, 0.35};
+    0.01, 0.35};
 
 struct Variant {
   std::string family, method, stop, knob;
-  bool iterative = false;
   auto operator<=>(const Variant&) const = default;
 
   explicit Variant(const Record& r)
       : family(r.family),
         method(r.general_name),
         stop(r.iterative ? name_of(r.stop) : ""),
-        knob(r.knob_value ? fmt::format("{} {}", r.knob, *r.knob_value) : r.knob),
-        iterative(r.iterative) {}
+        knob(r.knob_value ? fmt::format("{} {}", r.knob, *r.knob_value) : r.knob) {}
   std::string text() const {
     std::string result = method;
     if (!stop.empty()) result += " with stop " + stop;
@@ -66,30 +54,11 @@ struct Variant {
   }
 };
 
-struct Grounded {
+struct EstimateWithSource {
   Estimate estimate;
   std::string basis;
-  const Variant* variant;             // source of the records
-  const Record* same_case = nullptr;  // record of the case itself
+  const Record* source;
 };
-
-std::string extent_of(const RecordList& records) {
-  const auto [smallest, largest] = std::ranges::minmax_element(records, {}, &Record::n_phi);
-  std::string text = fmt::format("{} record{}, {}", records.size(), records.size() == 1 ? "" : "s",
-                                 (*smallest)->mesh);
-  if ((*smallest)->mesh != (*largest)->mesh) text += ".." + (*largest)->mesh;
-  const auto extrapolated = std::ranges::count(records, Status::timeout, &Record::status);
-  if (extrapolated > 0) text += fmt::format(", {} extrapolated", extrapolated);
-  return text;
-}
-
-std::vector<SizedValue> points(const RecordList& records, const Quantity& quantity) {
-  std::vector<SizedValue> result;
-  for (const Record* record : records)
-    if (const auto value = quantity.of(*record))
-      result.push_back({static_cast<int>(*record->n_phi), *value});
-  return result;
-}
 
 class Past {
  public:
@@ -102,76 +71,54 @@ class Past {
     for (const auto& [key, record] : latest) variants_[std::get<Variant>(key)].push_back(record);
   }
 
-  std::optional<Grounded> estimate(const Record& c, const Quantity& quantity) const {
+  std::optional<EstimateWithSource> estimate(const Record& c, const Quantity& quantity) const {
     if (!c.n_phi) return {};  // no body, no size
     const Variant own(c);
-    if (auto result = from(variants_.find(own), c, quantity)) return result;
+    if (const Record* const nearest = nearest_in_size(variants_.find(own), c, quantity))
+      return scaled(*nearest, c, quantity);
     auto closest = variants_.end();
     for (auto at = variants_.begin(); at != variants_.end(); ++at)
-      if (at->first.family == own.family && !points(at->second, quantity).empty() &&
+      if (at->first.family == own.family && nearest_in_size(at, c, quantity) != nullptr &&
           (closest == variants_.end() || own.likeness(at->first) > own.likeness(closest->first)))
         closest = at;
-    auto result = from(closest, c, quantity);
-    if (!result) return {};
+    if (closest == variants_.end()) return {};
+    EstimateWithSource result = scaled(*nearest_in_size(closest, c, quantity), c, quantity);
     const double factor = std::exp(2 * quantity.relative);
-    result->estimate.low /= factor;
-    result->estimate.high *= factor;
-    result->basis = fmt::format("like {}: {}", closest->first.text(), result->basis);
+    result.estimate.low /= factor;
+    result.estimate.high *= factor;
+    result.basis = fmt::format("like {}: {}", closest->first.text(), result.basis);
     return result;
   }
 
-  // Of the variant that gave the time; empty if most of its cases had none.
-  std::optional<Estimate> tuning(const Record& c, const Grounded& time) const {
-    const auto found = variants_.find(*time.variant);
-    if (time.same_case != nullptr) {
-      const std::optional<double> tuning_s = tuning_quantity.of(*time.same_case);
-      if (!tuning_s) return {};
-      return estimate_of(*tuning_s, tuning_quantity.measured);
-    }
-    if (2 * points(found->second, tuning_quantity).size() <
-        points(found->second, time_quantity).size())
-      return {};
-    const auto result = from(found, c, tuning_quantity);
-    return result ? std::optional(result->estimate) : std::nullopt;
+ private:
+  using Variants = std::map<Variant, std::vector<const Record*>>;
+
+  // Of the same body if there is one, then of its scene; null: no record has the quantity.
+  const Record* nearest_in_size(Variants::const_iterator variant, const Record& c,
+                                const Quantity& quantity) const {
+    if (variant == variants_.end()) return nullptr;
+    const auto distance = [&](const Record* r) {
+      return std::tuple(std::abs(std::log(growth(*r->n_phi, *c.n_phi))), r->mesh != c.mesh,
+                        r->scene != c.scene);
+    };
+    const Record* nearest = nullptr;
+    for (const Record* r : variant->second)
+      if (quantity.of(*r) && (nearest == nullptr || distance(r) < distance(nearest))) nearest = r;
+    return nearest;
   }
 
- private:
-  using Variants = std::map<Variant, RecordList>;
-
-  std::optional<Grounded> from(Variants::const_iterator found, const Record& c,
-                               const Quantity& quantity) const {
-    if (found == variants_.end()) return {};
-    const Variant& variant = found->first;
-    RecordList any_scene, same_scene;
-    for (const Record* record : found->second) {
-      if (!quantity.of(*record)) continue;
-      any_scene.push_back(record);
-      if (record->scene != c.scene) continue;
-      same_scene.push_back(record);
-      if (record->mesh != c.mesh || record->n_phi != c.n_phi) continue;
-      const bool measured = record->status != Status::timeout;
-      return Grounded{
-          estimate_of(*quantity.of(*record), measured ? quantity.measured : quantity.relative),
-          measured ? "measured" : "a timeout, extrapolated", &variant, record};
-    }
-    if (any_scene.empty()) return {};
-    const bool has_two_sizes = std::ranges::any_of(same_scene, [&](const Record* record) {
-      return record->n_phi != same_scene.front()->n_phi;
-    });
-    const RecordList& used = has_two_sizes ? same_scene : any_scene;
-    const std::vector<SizedValue> values = points(used, quantity);
-    const std::string basis = extent_of(used);
-    const double least = variant.iterative ? quantity.iterative : quantity.direct;
-    const int n = static_cast<int>(*c.n_phi);
-    if (const auto law = extrapolate(values, n, least)) return Grounded{*law, basis, &variant};
-    if (values.front().n == n)  // other scenes of this mesh
-      return Grounded{extrapolate(values, n, 0, least), basis, &variant};
-    std::vector<std::vector<SizedValue>> groups;
-    for (const auto& [other, records] : variants_) groups.push_back(points(records, quantity));
-    const std::optional<double> exponent = pooled_exponent(groups, n);
-    if (!exponent) return {};
-    return Grounded{extrapolate(values, n, *exponent, least),
-                    fmt::format("{}, exponent {:.2f} of all methods", basis, *exponent), &variant};
+  static EstimateWithSource scaled(const Record& r, const Record& c, const Quantity& quantity) {
+    constexpr double exponent_scatter = 0.3;  // 19 of 20 methods grow by n^0.5 … n^1.7
+    const double factor = growth(*r.n_phi, *c.n_phi);
+    const bool is_extrapolated = r.status == Status::timeout, is_same_scene = r.scene == c.scene;
+    const double own = is_extrapolated || !is_same_scene ? quantity.relative : quantity.measured;
+    std::string basis = is_extrapolated ? "a timeout, extrapolated" : "measured";
+    if (!is_same_scene || r.mesh != c.mesh || r.n_phi != c.n_phi)
+      basis += fmt::format(" on {}/{}", r.mesh, r.scene);
+    if (r.n_phi != c.n_phi) basis += ", scaled by n log n";
+    return {
+        estimate_of(factor * *quantity.of(r), std::hypot(own, exponent_scatter * std::log(factor))),
+        std::move(basis), &r};
   }
 
   Variants variants_;
@@ -193,11 +140,12 @@ Prediction predict(const Record& c, const Past& past, const RunLimits& limits) {
   result.basis = time ? time->basis : heap ? heap->basis : "no record";
   if (time) {
     result.time_s = time->estimate;
-    const std::optional<Estimate> tuning = past.tuning(c, *time);
-    result.tuning_s = tuning ? tuning->value : 0;
+    const Record& source = *time->source;
+    result.tuning_s = source.tuning_s.value_or(0) * growth(*source.n_phi, *c.n_phi);
     result.run_s = run_seconds(result.time_s->value, result.tuning_s, limits);
     result.timeout =
-        std::max(mark_of(result.time_s, limits.timeout_s), mark_of(tuning, limits.timeout_s));
+        std::max(mark_of(result.time_s, limits.timeout_s),
+                 mark_of(estimate_of(result.tuning_s, time_quantity.measured), limits.timeout_s));
   }
   if (heap) result.peak_heap_bytes = heap->estimate;
   if (limits.memory_limit_bytes)
@@ -244,6 +192,19 @@ std::string totals(const std::vector<Record>& cases, const Forecast& forecast) {
 }
 
 }  // namespace
+
+Estimate estimate_of(double value, double scatter) {
+  const double factor = std::exp(2 * scatter);
+  return {value, value / factor, value * factor};
+}
+
+double growth(std::int64_t from, std::int64_t to) {
+  const auto n_log_n = [](std::int64_t n) {
+    const double size = std::max(static_cast<double>(n), 2.);
+    return size * std::log(size);
+  };
+  return n_log_n(to) / n_log_n(from);
+}
 
 PastRecords read_past_records(const std::vector<std::filesystem::path>& folders) {
   PastRecords past;
@@ -310,26 +271,6 @@ Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& r
     else
       *result.references_s += reference_per_hybrid * hybrid->estimate.value;
   }
-  return result;
-}
-
-Prediction grown(const Record& measured, std::int64_t n_phi, const std::vector<Record>& records) {
-  const Past past(records);
-  Record here = measured;
-  here.mesh.clear();  // the power law, not the record of the same case
-  Record there = here;
-  there.n_phi = n_phi;
-  const auto value = [&](const Quantity& quantity) -> std::optional<Estimate> {
-    const auto from = past.estimate(here, quantity), to = past.estimate(there, quantity);
-    const std::optional<double> own = quantity.of(measured);
-    if (!from || !to || !own) return {};
-    const auto deviation = [](const Estimate& e) { return std::log(e.high / e.value) / 2; };
-    return estimate_of(*own * to->estimate.value / from->estimate.value,
-                       std::hypot(deviation(from->estimate), deviation(to->estimate)));
-  };
-  Prediction result;
-  result.time_s = value(time_quantity);
-  result.peak_heap_bytes = value(heap_quantity);
   return result;
 }
 

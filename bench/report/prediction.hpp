@@ -1,12 +1,8 @@
-// Time and memory of planned cases, predicted from earlier records. Time, tuning and memory each
-// use the first of these that exists:
-//   1. the latest record of the same case (mesh, size, scene, method, stop, parameter of a study);
-//   2. the power law over the method's other meshes (statistics.hpp), of the same scene if that has
-//      two sizes;
-//   3. with one size only: that, with the exponent common to all methods;
-//   4. the same from the closest relative: the other stop, then the name in the family with the
-//      longest common beginning.
-// A timeout counts with its extrapolated time. A skipped case takes no time.
+// Time and memory of planned cases, from the record of an earlier one: the latest of the same case
+// (mesh, size, scene, method, stop, parameter of a study), else the method's nearest in size,
+// scaled by n log n, else that of the closest relative: the other stop, then the name in the family
+// with the longest common beginning. A timeout counts with its extrapolated time. A skipped case
+// takes no time.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +11,17 @@
 #include <vector>
 
 #include "bench/records/record_reader.hpp"
-#include "bench/report/statistics.hpp"
 
 namespace airybench {
+
+// A value and its range of two standard deviations of the logarithm (about 19 of 20 cases).
+struct Estimate {
+  double value = 0, low = 0, high = 0;
+};
+Estimate estimate_of(double value, double scatter);  // scatter: that standard deviation
+
+// n log n, from one number of unknowns to another.
+double growth(std::int64_t from, std::int64_t to);
 
 struct RunLimits {
   int repetitions = 5;
@@ -33,7 +37,7 @@ struct Prediction {
   double tuning_s = 0;             // before the solve
   std::optional<Estimate> peak_heap_bytes;
   std::optional<double> run_s;  // total of the case, all solves
-  std::string basis;            // "measured", "7 records, Mesh0..Mesh6", "no record"
+  std::string basis;  // "measured", "measured on Mesh6/default, scaled by n log n", "no record"
   LimitMark timeout = LimitMark::below, memory_limit = LimitMark::below;
 };
 
@@ -56,11 +60,6 @@ PastRecords read_committed_records(const std::vector<Record>& cases,
 // since it does more than the method alone.
 Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& records,
                   const RunLimits& limits);
-
-// Time and memory of a measured case on a mesh of n_phi unknowns: its own, times what the records
-// of its method say that they grow by, however fast their machine was. Empty values: they cannot
-// say.
-Prediction grown(const Record& measured, std::int64_t n_phi, const std::vector<Record>& records);
 
 // What a measured case takes of the time that the records predict for it; 1 if they cannot.
 double time_of_machine(const Record& measured, const std::vector<Record>& records);

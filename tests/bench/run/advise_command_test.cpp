@@ -46,11 +46,11 @@ TEST_F(AdviseCommand, TheCommandRunsAsItIsPrinted) {
   EXPECT_TRUE(std::filesystem::exists(bench_.path("again/records.jsonl")));
 }
 
-TEST_F(AdviseCommand, RefiningEverywhereIsForecastWithARange) {
+TEST_F(AdviseCommand, RefiningEverywhereIsScaledFromItsMeasurement) {
   const std::string out = advice("--error=1% --method=HYBRID,HYBRID:k=2");
   std::smatch found;
   const std::regex row(
-      R"(\nMesh0\+refine(\d) +HYBRID +(\d+) .* forecast: \S+ m?s to \S+ m?s, the error at best\n)");
+      R"(\nMesh0\+refine(\d) +HYBRID +(\d+) .* Mesh0\+refine1 scaled by n log n, the error at best\n)");
   ASSERT_TRUE(std::regex_search(out, found, row)) << out;
   ASSERT_EQ(found[1], "3") << out;
   EXPECT_NEAR(std::stod(found[2]), 44035, 0.01 * 44035);  // bench --mesh=Mesh0+refine3
