@@ -34,7 +34,7 @@ LoadScale load_scale(const Problem& problem) {
     }
   }
   LoadScale scale;
-  if (!problem.opposite.empty()) scale.rounding = 1e-11;
+  if (!problem.opposite.empty() || !loads.thermal.empty()) scale.rounding = 1e-11;
   double energy = 0;
   double strain = displacement / diameter;
   if (!loads.thermal.empty())

@@ -13,7 +13,8 @@ struct LoadScale {
   double energy_norm = 0;  // √(N mm)
   double force_N = 0;
   // What rounding may leave of either where it should be zero: bodies that miss each other move as
-  // a whole, each by its own motion, and only that of all is taken out beforehand.
+  // a whole, each by its own motion, and only that of all is taken out beforehand; warmth that
+  // nothing hinders cancels.
   double rounding = 0;
 
   bool is_no_energy(double norm) const { return norm <= rounding * energy_norm; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "bench/measure/field_files.hpp"
@@ -190,6 +191,7 @@ const std::vector<StepResult>* Judge::half_steps(int degree) {
 
 Verdict Judge::judge_total_error(const Method& method, Verdict so_far,
                                  const CaseResult& result) const {
+  constexpr double max_turn = 0.1;
   const TotalError& total = result.of_mesh.total;
   if (const std::optional<double> error = total.of_mesh(); is_all_error(error))
     return {Status::inaccurate,
@@ -198,6 +200,17 @@ Verdict Judge::judge_total_error(const Method& method, Verdict so_far,
                                     : fmt::format("its total error is {:.0f} %: nothing of it is "
                                                   "known",
                                                   100 * *error))};
+  if (const Sliding& slid = total.sliding(); slid.turn > max_turn)
+    return {
+        Status::inaccurate,
+        fmt::format("a face slides {:.3g} mm along another, whose normal turns by {:.2g}° on the "
+                    "way: small displacements, which all of this assumes, do not hold",
+                    slid.mm, slid.turn * 180 / std::numbers::pi)};
+  else if (slid.edges > 1)
+    so_far.add(
+        fmt::format("a face slides up to {:.3g} mm along another, farther than an edge is "
+                    "long: it presses on what faced it at first",
+                    slid.mm));
   if (method.in_displacements() && !total.of_mesh() && so_far.reason.empty())
     so_far.add("its total error is not known: " +
                (total.flaw().empty() ? result.of_mesh.missing : total.flaw()));

@@ -59,7 +59,24 @@ struct ContactTerms {
   double normal, tangential;
   double beyond_wall_N;               // ∫ σ_n where the edge meets no wall
   double highest_gap, highest_force;  // largest u_n − g0 and F_n; admissible: ≤ 0
+  Sliding sliding;
 };
+
+// u_t: of the edge of this row, less that of earlier load steps.
+template <int p>
+Sliding sliding_of(const Problem& problem, int row, std::array<double, p + 1> u_t) {
+  const double length_mm = problem.frame_at(row, 0, 1).length_mm,
+               turn =
+                   (problem.frame_at(row, 1, 1).normal - problem.frame_at(row, 0, 1).normal).norm();
+  if (problem.opposite_of(row) == Problem::no_row && turn < straight_roller) return {};
+  if (const auto& slid = problem.loads.slid_mm; slid.size() > 0) {
+    const std::array<double, p + 1> before = elevated<p>(slid.col(row));
+    for (int i = 0; i <= p; ++i) u_t[i] += before[i];
+  }
+  double mm = 0;
+  for (const double slide : u_t) mm = std::max(mm, std::abs(slide));
+  return {mm, mm / length_mm, turn * mm / length_mm};
+}
 
 // point: the first of an edge; u: its traces.
 template <int k>
@@ -92,6 +109,7 @@ ContactTerms contact_terms(const ContactSystem& system, const CurvedTraces& trac
   for (int i = 0; i <= p; ++i) r[i] += lowered[i];
   terms.highest_gap = *std::max_element(r.begin(), r.end());
   terms.highest_force = *std::max_element(normal.begin(), normal.end());
+  if (*std::ranges::min_element(normal) < 0) terms.sliding = sliding_of<p>(problem, row, u_t);
   return terms;
 }
 
@@ -223,6 +241,7 @@ ConstitutiveError error_of(const ContactSystem& system, const StressField& stres
     for (const int side : rows)
       error.of_triangle_Nmm[sides[static_cast<std::size_t>(side)].triangle] +=
           (terms.normal + terms.tangential + beyond_wall) / static_cast<double>(rows.size());
+    error.sliding.include(terms.sliding);
     highest_gap = std::max(highest_gap, terms.highest_gap);
     highest_force = std::max(highest_force, terms.highest_force);
   }

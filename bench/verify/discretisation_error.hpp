@@ -30,12 +30,27 @@
 // the rest (geometry_error.hpp).
 #pragma once
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
 
 namespace airybench {
+
+// How far faces in contact slide along another body or a wall that curves, which is not in the
+// error: in small displacements they press on what faced them at first.
+struct Sliding {
+  double mm = 0;     // the largest slide of an edge in contact, from the start of a path on
+  double edges = 0;  // the largest over the edge's length
+  double turn = 0;   // the largest angle by which the law's normal turns on that way
+
+  void include(const Sliding& other) {
+    for (double Sliding::*part : {&Sliding::mm, &Sliding::edges, &Sliding::turn})
+      this->*part = std::max(this->*part, other.*part);
+  }
+};
 
 struct ConstitutiveError {
   double body_Nmm = 0, normal_contact_Nmm = 0, tangential_contact_Nmm = 0;
@@ -55,6 +70,7 @@ struct ConstitutiveError {
   // Why a field is not admissible and e is no error; empty if it is one. Example: u0 pushes an end
   // of Γ_D through the wall, which no displacement of finite energy can do.
   std::string flaw;
+  Sliding sliding;
 
   double squared_Nmm() const {
     return body_Nmm + normal_contact_Nmm + tangential_contact_Nmm + beyond_wall_Nmm + geometry_Nmm;

@@ -15,6 +15,7 @@ void TotalError::add(const ConstitutiveError& error, const std::string& step, Of
   of_step_.push_back({norm, error.flaw.empty() ? std::optional(error.relative) : std::nullopt,
                       squared > 0 ? error.relative * std::sqrt(error.geometry_Nmm / squared) : 0});
   largest_norm_ = std::max(largest_norm_, norm);
+  sliding_.include(error.sliding);
   parts_.resize(error.of_triangle_Nmm.size());
   if (!(squared > 0) || is_unloaded(steps() - 1)) return;
   const double scale = error.relative * error.relative / squared;

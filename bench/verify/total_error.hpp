@@ -37,7 +37,8 @@ class TotalError {
   std::optional<int> largest_step() const;  // that has it
   // η / ‖σ‖ of curved sides (geometry_error.hpp), a part of it; 0: there are none.
   double geometry() const;
-  const std::string& flaw() const { return flaw_; }  // the first; empty: none
+  const std::string& flaw() const { return flaw_; }    // the first; empty: none
+  const Sliding& sliding() const { return sliding_; }  // the largest of all steps
 
   // Per triangle Σ e_T² / ‖σ‖² over the steps, what refinement is to lower.
   const std::vector<double>& parts() const { return parts_; }
@@ -56,6 +57,7 @@ class TotalError {
   std::vector<double> parts_;
   double largest_norm_ = 0;
   std::string flaw_;
+  Sliding sliding_;
 };
 
 }  // namespace airybench

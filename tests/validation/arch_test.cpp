@@ -1,4 +1,5 @@
-// A semicircular arch of 25 stones under its weight: held by contact alone, by friction at every joint.
+// A semicircular arch of 25 stones under its weight: held by contact alone, by friction at every
+// joint.
 //
 // The least friction at which rigid stones stand is that of limit analysis: a linear program over
 // each joint's normal forces at its two ends and the tangential one between, |T| ≤ μ N, in
@@ -24,9 +25,10 @@ Mesh arch(double thickness_mm) {
   const std::vector<double> radii = {radius_mm - thickness_mm / 2, radius_mm,
                                      radius_mm + thickness_mm / 2};
   for (int k = 0; k < stones; ++k)
-    testing::add_ring_sector(mesh, fmt::format("stone {}", k), radii, 2, "force", "force",
-                             {{std::numbers::pi * k / stones, std::numbers::pi * (k + 1) / stones},
-                              {fmt::format("contact:{} first", k), fmt::format("contact:{} last", k)}});
+    testing::add_ring_sector(
+        mesh, fmt::format("stone {}", k), radii, 2, "force", "force",
+        {{std::numbers::pi * k / stones, std::numbers::pi * (k + 1) / stones},
+         {fmt::format("contact:{} first", k), fmt::format("contact:{} last", k)}});
   validate(mesh);
   return mesh;
 }
@@ -40,8 +42,8 @@ Scene under_its_weight(double friction) {
   for (int k = 0; k + 1 < stones; ++k)
     scene.contacts.push_back({.between = {{{fmt::format("contact:{} last", k)},
                                            {fmt::format("contact:{} first", k + 1)}}}});
-  for (const std::string& springing : {std::string("contact:0 first"),
-                                       fmt::format("contact:{} last", stones - 1)})
+  for (const std::string& springing :
+       {std::string("contact:0 first"), fmt::format("contact:{} last", stones - 1)})
     scene.boundary[springing].contact.wall = FlatWall{{0, 0}, {0, 1}};
   return scene;
 }

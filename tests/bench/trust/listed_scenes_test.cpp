@@ -10,6 +10,7 @@
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
+#include "tests/support/two_blocks.hpp"
 
 namespace airybench::listed_scenes_test {
 namespace {
@@ -263,6 +264,35 @@ TEST(ListedScenes, StrainsThatAreNotSmallAreSaid) {
     const Record record = examined(problem, select_methods("HYBRID").front());
     EXPECT_EQ(record.outcome, "ok") << record.status_reason;
     EXPECT_EQ(record.status_reason.find("small strains") != std::string::npos, far > 1)
+        << record.status_reason;
+  }
+}
+
+// A block is moved along its base, a piece of a tyre along its rim: what is pressed then is not
+// what was at first.
+TEST(ListedScenes, SlidingFarIsSaidOrInaccurate) {
+  for (const double along_mm : {0.1, 4.}) {
+    const Record record =
+        examined(testing::posed(testing::pressed(0, {along_mm, -0.01}), testing::two_blocks(8, 8)),
+                 "HYBRID");
+    EXPECT_EQ(record.outcome, "ok") << record.status_reason;
+    EXPECT_EQ(testing::contains(record.status_reason, "a face slides up to 4 mm along another"),
+              along_mm > 1)
+        << record.status_reason;
+  }
+  for (const double along_mm : {0.1, 3.}) {
+    Mesh mesh;
+    mesh.name = "tyre";
+    testing::add_ring_sector(mesh, "tyre", {10, 11, 12}, 8, "contact", "displacement",
+                             {{1.2, 1.9}, {"force", "force"}});
+    Scene scene;
+    scene.friction = 0;
+    scene.crown_radius_mm.reset();
+    scene.wall = CircularWall{{0, 0}, 10, CircularWall::Bodies::outside};
+    scene.displacement_mm = {along_mm, -0.01};
+    const Record record = examined(testing::posed(scene, mesh), "HYBRID");
+    EXPECT_EQ(record.outcome, along_mm > 1 ? "inaccurate" : "ok") << record.status_reason;
+    EXPECT_EQ(testing::contains(record.status_reason, "normal turns by"), along_mm > 1)
         << record.status_reason;
   }
 }
