@@ -274,7 +274,7 @@ TEST(ListedScenes, SlidingFarIsSaidOrInaccurate) {
   for (const double along_mm : {0.1, 4.}) {
     const Record record =
         examined(testing::posed(testing::pressed(0, {along_mm, -0.01}), testing::two_blocks(8, 8)),
-                 "HYBRID");
+                 select_methods("HYBRID").front());
     EXPECT_EQ(record.outcome, "ok") << record.status_reason;
     EXPECT_EQ(testing::contains(record.status_reason, "a face slides up to 4 mm along another"),
               along_mm > 1)
@@ -290,7 +290,7 @@ TEST(ListedScenes, SlidingFarIsSaidOrInaccurate) {
     scene.crown_radius_mm.reset();
     scene.wall = CircularWall{{0, 0}, 10, CircularWall::Bodies::outside};
     scene.displacement_mm = {along_mm, -0.01};
-    const Record record = examined(testing::posed(scene, mesh), "HYBRID");
+    const Record record = examined(testing::posed(scene, mesh), select_methods("HYBRID").front());
     EXPECT_EQ(record.outcome, along_mm > 1 ? "inaccurate" : "ok") << record.status_reason;
     EXPECT_EQ(testing::contains(record.status_reason, "normal turns by"), along_mm > 1)
         << record.status_reason;
