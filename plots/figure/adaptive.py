@@ -24,7 +24,7 @@ HIGHEST = 1.0  # total errors above are not drawn
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    run = of_scene([row for row in rows if row.study in ("", "error") and not row.knob
+    run = of_scene([row for row in rows if (not row.study or row.points == "accuracy") and not row.knob
                     and not is_paper_stop(row)])
     known = [row for row in run if row.completed and row.error_total]
     bodies = {body for body, own in by_body(known).items()

@@ -20,7 +20,7 @@ AT_EDGE = 0.95  # of an axes' height: where a solver that found nothing is marke
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     """One for each method; other programs, which replace HYBRID's contact law, are in its."""
-    run = [row for row in rows if row.study == "contact" and row.status != "skipped"]
+    run = [row for row in rows if row.points == "contact" and row.status != "skipped"]
     study = [row for row in run if row.contact_solver]
     programs = [row for row in run if row.program]
     methods = grouped(study, lambda row: row.method) or {"": []}

@@ -23,7 +23,7 @@ H = r"$n_\varphi^{-1/2}$, proportional to the mesh size h"
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    study = [row for row in rows if row.study == "error"]
+    study = [row for row in rows if row.points == "accuracy"]
     if study:
         yield Drawing("convergence", study, draw, table_of)
 

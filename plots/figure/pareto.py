@@ -31,7 +31,7 @@ KINDS = {"as they are": ("black", 2.2), "refined everywhere": ("#6B6B80", 1.8),
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    study = of_scene([row for row in rows if row.study == "error"])
+    study = of_scene([row for row in rows if row.points == "accuracy"])
     if study:
         levels_of = [row for row in rows if row.study == "" and row.adapt_level is not None
                      and row.scene == study[0].scene]

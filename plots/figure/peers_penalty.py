@@ -19,7 +19,8 @@ CHOSEN = re.compile(r"(\w+)=([-+.\de]+)(?:;|$)")
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    run = of_scene([row for row in rows if row.stop == "target" and row.study in ("", "error") and not row.knob])
+    run = of_scene([row for row in rows if row.stop == "target" and not row.knob
+                    and (not row.study or row.points == "accuracy")])
     known = [row for row in run if row.completed and row.time_s and error_of(row)
              and (is_compared(row) or value_of(row) is not None)]
     meshes = [drawn_of(own) for own in by_mesh(known).values() if sweeps_of(own)][:PANELS]

@@ -107,7 +107,7 @@ def mesh_for(threads: int, alone: list[Row]) -> str | None:
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    study = of_scene([row for row in rows if row.study == "scaling"])
+    study = of_scene([row for row in rows if row.points == "threads"])
     for stop, own in by_stop(study).items():
         yield Drawing(with_suffix("scaling", stop), own, draw, table_of, vector=True)
 

@@ -16,7 +16,7 @@ MARKERS = "o^sDvP<X"
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    study = of_scene([row for row in rows if row.study == "error"])
+    study = of_scene([row for row in rows if row.points == "accuracy"])
     if study:
         yield Drawing("stop_and_error", [row for row in study if parameters_of(row)], draw, table_of,
                       options=dict(run=study))

@@ -19,7 +19,7 @@ AXES = ("time_s", "peak_heap_bytes")
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    study = of_scene([row for row in rows if row.study == "error"])
+    study = of_scene([row for row in rows if row.points == "accuracy"])
     for mesh, own in by_mesh(study).items():
         yield Drawing(file_name("work_precision", mesh), own, draw, table_of)
 
