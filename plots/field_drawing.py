@@ -14,7 +14,8 @@ from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke, withTickedStroke
 from matplotlib.tri import Triangulation
 
-from fields import Fields, chains, largest_shear, parts
+from fields import Fields, between, chains, largest_shear, lengths_of, lines_of, parts
+from lagrange_cells import interpolation
 from drawing import SMALLEST_PT
 from words import width_of
 
@@ -84,7 +85,7 @@ def highest_shear(s: Fields) -> float:
 def highest_pressure(s: Fields) -> float:
     """MPa; of 95 % of the contact in pressure."""
     pressure = np.abs(s.traction[..., 0]).ravel()
-    lengths = np.repeat(np.hypot(*(s.edges[:, 1] - s.edges[:, 0]).T), s.per_edge)
+    lengths = np.repeat(lengths_of(s.edges), s.per_edge)
     pressed = pressure > 0
     return highest_but(pressure[pressed], lengths[pressed], 0.95, 2) if pressed.any() else 0.0
 
@@ -101,22 +102,23 @@ def band(state: str) -> dict[str, object]:
 
 
 def cut(values: np.ndarray, parts: int) -> np.ndarray:
-    """Linear functions by their corner values (N, 3, c), on parts^2 triangles each: (., 3, c)."""
+    """Polynomials by their values (N, P, c) at the points of a third, on parts^2 triangles each: (., 3, c)."""
     k = range(parts)
     up = [((i, j), (i + 1, j), (i, j + 1)) for i in k for j in k if i + j < parts]
     down = [((i, j), (i - 1, j), (i, j - 1)) for i in k for j in k if i and j and i + j <= parts]
     ij = np.array(up + down) / parts
     weights = np.stack([1 - ij.sum(-1), ij[..., 0], ij[..., 1]], axis=-1)  # (parts^2, 3, 3)
-    return np.einsum("kcw,nwx->nkcx", weights, values).reshape(-1, 3, values.shape[-1])
+    at_points = interpolation(values.shape[1], weights).reshape(-1, values.shape[1])
+    return (at_points @ values).reshape(-1, 3, values.shape[-1])
 
 
 def draw_stress(axes: Axes, s: Fields, chosen: np.ndarray, scales: Scales) -> None:
-    """tau_max on the chosen triangles (T,); the stress is linear on each third, tau_max is not."""
+    """tau_max on the chosen triangles (T,); on each third the stress is a polynomial, tau_max is not."""
     if not chosen.any():
         return
     parts = int(np.clip(np.sqrt(6e4 / (3 * chosen.sum())), 2, 8))
-    xy = cut(s.placed(s.corners[chosen]).reshape(-1, 3, 2), parts).reshape(-1, 2)
-    tau = largest_shear(cut(s.stress[chosen].reshape(-1, 3, 3), parts)).ravel()
+    xy, stress = (cut(values[chosen].reshape(-1, *values.shape[2:]), parts) for values in (s.placed(s.points), s.stress))
+    tau, xy = largest_shear(stress).ravel(), xy.reshape(-1, 2)
     mesh = Triangulation(*xy.T, np.arange(len(xy)).reshape(-1, 3))
     axes.tripcolor(mesh, tau, shading="gouraud", cmap=COLORMAP, norm=scales.shear, rasterized=True)
     triangles = s.placed(s.triangles[chosen])
@@ -125,24 +127,23 @@ def draw_stress(axes: Axes, s: Fields, chosen: np.ndarray, scales: Scales) -> No
     # The same part of every triangle, whatever its size; too fine to see, no lines.
     lines = np.zeros((len(triangles), 4))
     lines[:, 3] = 0.4 * np.clip((size_pt - FINEST_PT) / (CLEAR_PT - FINEST_PT), 0, 1)
-    axes.add_collection(PolyCollection(triangles, facecolor="none", edgecolor=lines, rasterized=True,
+    axes.add_collection(PolyCollection(s.placed(s.outlines[chosen]), facecolor="none", edgecolor=lines, rasterized=True,
                                        linewidths=np.clip(0.03 * size_pt, 0.05, 0.3)))
 
 
 def draw_boundary(axes: Axes, s: Fields) -> None:
     for role, style in LINES.items():
         edges = s.placed(s.boundary[s.role == role])
-        for chain in chains(edges):
-            points = np.vstack([edges[chain, 0], edges[chain[-1:], 1]])
+        for points in lines_of(edges):
             line, = axes.plot(*points.T, **style, zorder=3, solid_capstyle="butt")
             if role == "displacement":
                 line.set_path_effects([TICKED])
-            if role == "rollers":
-                axes.plot(*edges[chain].mean(1).T, **ROLLER, zorder=3)
+        if role == "rollers" and len(edges):
+            axes.plot(*between(edges, np.array([0.5]))[:, 0].T, **ROLLER, zorder=3)
 
 
 def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
-    draw_stress(axes, s, np.full(len(s.corners), True), scales)
+    draw_stress(axes, s, np.full(len(s.points), True), scales)
     draw_boundary(axes, s)
 
 
@@ -171,7 +172,7 @@ def draw_displaced(axes: Axes, s: Fields, times: float | None) -> None:
         return
     moved = s.boundary + times * s.moved
     for chain in chains(s.boundary):
-        axes.plot(*np.vstack([moved[chain, 0], moved[chain[-1:], 1]]).T, **OUTLINE, zorder=4)
+        axes.plot(*moved[chain].reshape(-1, 2).T, **OUTLINE, zorder=4)
     if s.gap is not None and np.isfinite(s.gap).all():
         for wall in walls_of(s, times):
             axes.plot(*wall.T, **WALL, zorder=3.5, path_effects=[TICKED])
@@ -183,8 +184,7 @@ def walls_of(s: Fields, times: float) -> list[np.ndarray]:
     m the mean of u n over the points that touch it: there the enlarged outline meets it."""
     m = s.per_edge
     places = np.arange(1, m + 1) / (m + 1)  # gaps are means around these points of an edge
-    at, u = (np.einsum("kc,ecx->ekx", np.stack([1 - places, places], 1), ends[s.role == "contact"])
-             for ends in (s.boundary, s.moved))
+    at, u = (between(ends[s.role == "contact"], places) for ends in (s.boundary, s.moved))
     normal, gap = s.normal, s.gap[..., None]
     offset = (u * normal).sum(-1, keepdims=True) + gap  # from p to the wall
     found = []
@@ -214,18 +214,18 @@ def draw_loads(axes: Axes, s: Fields, largest: float) -> None:
     scale = np.abs(np.diff(axes.transData.transform([(0, 0), (1, 0)])[:, 0]))[0] * 72 / axes.figure.dpi
     edges, loads = s.boundary[loaded], s.load[loaded]
     for chain in chains(edges):
-        lengths = scale * np.hypot(*(edges[chain, 1] - edges[chain, 0]).T)
+        lengths = scale * lengths_of(edges[chain])
         ends = np.cumsum(lengths)
         count = max(1, int(ends[-1] / SPACING_PT))
         for at in (np.arange(count) + 0.5) * ends[-1] / count:
             k = int(np.searchsorted(ends, at))
             part = 1 - (ends[k] - at) / lengths[k]
-            start, end = edges[chain[k]]
-            traction = (1 - part) * loads[chain[k], 0] + part * loads[chain[k], 1]
+            traction, = between(loads[chain[k]], np.array([part]))
             if np.hypot(*traction) < WEAKEST * largest:
                 continue
-            outward = np.array([end[1] - start[1], start[0] - end[0]])
-            point = axes.transData.transform((1 - part) * start + part * end)
+            before, on, after = between(edges[chain[k]], part + np.array([-0.01, 0, 0.01]))
+            outward = np.array([after[1] - before[1], before[0] - after[0]])
+            point = axes.transData.transform(on)
             load_arrow(axes, point * 72 / axes.figure.dpi, ARROW_PT * traction / largest, outward)
 
 
@@ -251,7 +251,7 @@ def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:
     if marker_pt < SMALLEST_MARKER_PT:
         draw_states(axes, s, outside)
         return
-    along = parts(s.edges[..., 1], s.per_edge).mean(1).reshape(s.state.shape)
+    along = parts(s.edges[:, [0, -1], 1], s.per_edge).mean(1).reshape(s.state.shape)
     off = np.broadcast_to(np.linspace(0.42, 0.75, s.per_edge) * outside, along.shape)
     for name in STATE:
         axes.plot(along[s.state == name], off[s.state == name], linestyle="none", **marker(name),
@@ -264,7 +264,7 @@ def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
 
 
 def draw_states(axes: Axes, s: Fields, outside: float) -> None:
-    place = parts(s.edges[..., 1], s.per_edge)
+    place = parts(s.edges[:, [0, -1], 1], s.per_edge)
     box, limits = axes.get_window_extent(), axes.get_xlim()
     pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]
     for state, run in runs(s.state):
@@ -290,12 +290,13 @@ def draw_traction(axes: Axes, s: Fields) -> None:
     m = pressure.shape[1]
     samples = 2 if m == 2 else 5
     of_parts = (np.arange(m)[:, None] + np.linspace(0, 1, samples)) / m
-    x, y = (sampled(values, of_parts).reshape(-1, samples) for values in (s.edges[..., 1], pressure))
+    ends = s.edges[:, [0, -1], 1]
+    x, y = (sampled(values, of_parts).reshape(-1, samples) for values in (ends, pressure))
     for state, run in runs(s.state):
         axes.fill_between(x[run].ravel(), y[run].ravel(), color=STATE[state]["fill"], linewidth=0)
     along = np.linspace(0, 1, 2 if m == 2 else 13)
     for values, style in ((pressure, PRESSURE), (friction, FRICTION)):
-        axes.plot(sampled(s.edges[..., 1], along).T, sampled(values, along).T, **style)
+        axes.plot(sampled(ends, along).T, sampled(values, along).T, **style)
     highest = pressure.max()
     if highest > max(axes.get_ylim()):
         axes.annotate(f"up to {float(f'{highest:.3g}'):g} MPa", (0.5, 0), xytext=(0, 3),

@@ -13,7 +13,7 @@ from matplotlib.transforms import Bbox
 
 import field_drawing as drawing
 from drawing import bar_below
-from fields import BY_LENGTH, Fields, unrolled
+from fields import BY_LENGTH, Fields, between, unrolled
 from words import columns_of, csv_of, plain
 
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
@@ -91,7 +91,7 @@ def is_tall(s: Fields) -> bool:
 def is_cut(s: Fields) -> bool:
     """Some face is drawn in part."""
     lines = [(face, unrolled(s.edges[face])) for face in s.faces()]
-    return any(s.shown_of(face, line) != (line.along[0, 0], line.along[-1, 1]) for face, line in lines)
+    return any(s.shown_of(face, line) != line.limits for face, line in lines)
 
 
 def strip_of(width: float) -> float:
@@ -138,7 +138,7 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
     n_phi = "" if s.n_phi is None else rf", $n_\varphi$ = {s.n_phi}"
     figure.text((left + LEFT + (layout.body_width / 2 if not is_tall(s) else 0)) / size[0],
                 (top - TITLE + 0.07) / size[1],
-                f"{plain(s.mesh)}: {len(s.corners)} triangles{n_phi}", va="bottom", fontsize=9,
+                f"{plain(s.mesh)}: {len(s.points)} triangles{n_phi}", va="bottom", fontsize=9,
                 ha="left" if is_tall(s) else "center")
     drawing.draw_body(body, s, scales)
     drawing.draw_displaced(body, s, scales.times)
@@ -170,7 +170,7 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
                      yticks=[], ylim=(MARKERS / per_mm, (MARKERS - place.strip) / per_mm))
     strip.spines[:].set_color("0.5")
     strip.spines["bottom"].set_visible(False)
-    spacing_pt = 72 * per_mm * (line.along[-1, 1] - line.along[0, 0]) / (s.state[face].size / 2)
+    spacing_pt = 72 * per_mm * float(np.diff(line.limits)[0]) / (s.state[face].size / 2)
     local = line.seen(s, face, place.strip / per_mm)
     drawing.draw_strip(strip, local, min(MARKER_PT, 0.67 * spacing_pt), scales)
 
@@ -188,9 +188,9 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
                   color=drawing.ROLE["contact"]["color"], zorder=5, clip_on=False)
     if letter:
         box = dict(facecolor="white", edgecolor="none", pad=0.8)
-        start, end = s.edges[face[len(face) // 2]]
+        start, middle, end = between(s.edges[face[len(face) // 2]], np.array([0, 0.5, 1]))
         tangent = (end - start) / np.hypot(*(end - start))
-        body.annotate(letter, (start + end) / 2, xytext=9 * np.array([tangent[1], -tangent[0]]),
+        body.annotate(letter, middle, xytext=9 * np.array([tangent[1], -tangent[0]]),
                       textcoords="offset points", ha="center", va="center", weight="bold")
         strip.annotate(letter, (0, 1), xycoords="axes fraction", xytext=(4, -3), weight="bold",
                        textcoords="offset points", va="top", bbox=box)
@@ -229,9 +229,9 @@ def contact_points(solutions: list[Fields]) -> str:
     lines = []
     for s in solutions:
         for k, face in enumerate(faces_of(s)):
-            for edge, (start, end) in zip(face, unrolled(s.edges[face]).along):
+            for edge, (start, *_, end) in zip(face, unrolled(s.edges[face]).along):
                 at = np.linspace(0, 1, len(s.state[edge]))
-                places = (1 - at)[:, None] * s.edges[edge][0] + at[:, None] * s.edges[edge][1]
+                places = between(s.edges[edge], at)
                 lines += [(s, letter_of(k), *point) for point in
                           zip(places, map(float, (1 - at) * start + at * end), s.traction[edge], s.state[edge])]
     return csv_of(lines, *columns_of(lambda line: line[0], "mesh", "n_phi"),

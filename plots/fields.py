@@ -1,7 +1,9 @@
-"""Reads fields/NAME.{stress,contact,boundary}.csv as `bench --fields` writes them, and checks them.
+"""Reads fields/NAME.{stress,contact,boundary}.csv and .vtu as `bench --fields` writes them, and checks them.
 
 Lengths in mm, stresses in MPa, forces in N (per mm of thickness).
 T triangles, B boundary edges, E contact edges with m contact points each: 2, for stresses of degree k k + 1.
+Thirds of a triangle have P points (lagrange_cells.py), 3 where stresses are linear; edges have Q, evenly
+spread from start to end, 2 where none is curved.
 """
 from collections import defaultdict
 from dataclasses import dataclass, replace
@@ -11,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from case_names import case_of_file
+from lagrange_cells import Cells, along_side, degree_of, read_cells
 from records import RecordsError, cells_of, lines_file, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
@@ -28,6 +31,7 @@ BY_LENGTH = "distance along the face from its dot, mm"
 AROUND, MOST_SHOWN = 0.25, 0.75  # of the part of a face that touches; of the face
 MOST_POINTS = 9  # on an edge
 STRAIGHT = 0.999  # cosine of the angle between a straight face and its axis, at least
+ON_CURVE = 7  # points of an edge
 
 
 @dataclass(frozen=True)
@@ -35,18 +39,18 @@ class Fields:
     """One solution. Edges have the body on their left."""
 
     name: str
-    corners: np.ndarray   # (T, 3, 3, 2) mm: third, corner; corners of third k: v_k, v_k+1, centroid
-    stress: np.ndarray    # (T, 3, 3, 3) MPa: third, corner; sxx, syy, sxy; linear on a third
-    boundary: np.ndarray  # (B, 2, 2) mm: start, end
+    points: np.ndarray    # (T, 3, P, 2) mm: of third k; first its corners v_k, v_k+1, centroid
+    stress: np.ndarray    # (T, 3, P, 3) MPa: sxx, syy, sxy there; polynomials between
+    boundary: np.ndarray  # (B, Q, 2) mm: from start to end
     role: np.ndarray      # (B,) of ROLES, or "rollers"
-    edges: np.ndarray     # (E, 2, 2) mm: contact edges
+    edges: np.ndarray     # (E, Q, 2) mm: contact edges
     traction: np.ndarray  # (E, m, 2) MPa: Bernstein coefficients; normal (pressure < 0), tangential
     state: np.ndarray     # (E, m) of STATES
     mesh: str
     n_phi: int | None     # from the record; None: there is none
     of_face: bool = False  # seen from a face: distance outward and place along it, not x and y
     load: np.ndarray | None = None   # (B, 2, 2) MPa: given traction at start, end; None: unknown
-    moved: np.ndarray | None = None  # (B, 2, 2) mm: displacement of start, end
+    moved: np.ndarray | None = None  # (B, Q, 2) mm: displacement of its points
     normal: np.ndarray | None = None  # (E, m, 2): of the contact points, to the wall
     gap: np.ndarray | None = None    # (E, m) mm: along it, a mean around the point; NaN: unknown
     paired: np.ndarray | None = None  # (E,) it presses on another body, not on a wall
@@ -61,7 +65,13 @@ class Fields:
     @property
     def triangles(self) -> np.ndarray:
         """(T, 3, 2) mm."""
-        return self.corners[:, :, 0]
+        return self.points[:, :, 0]
+
+    @property
+    def outlines(self) -> np.ndarray:
+        """(T, points, 2) mm: of the triangles, along their sides."""
+        side = [0, *range(3, 2 + degree_of(self.points.shape[2]))]
+        return self.points[:, :, side].reshape(len(self.points), -1, 2)
 
     def placed(self, points: np.ndarray) -> np.ndarray:
         """(..., 2) -> to the right and along the vertical axis of a picture: x and y as they are, a
@@ -80,14 +90,14 @@ class Fields:
         least."""
         found = []
         for chain in chains(self.edges):
-            starts, ends = self.edges[chain].swapaxes(0, 1)
+            starts, ends = self.edges[chain, 0], self.edges[chain, -1]
             closed = (ends[-1] == starts[0]).all()
             found.append(np.roll(chain, -starts[:, 1].argmin()) if closed else chain)
         return found
 
 
 def chains(edges: np.ndarray) -> list[np.ndarray]:
-    """Numbers of the edges (n, 2, 2), chained end to start; a ring begins anywhere.
+    """Numbers of the edges (n, Q, 2), chained end to start; a ring begins anywhere.
 
     Where two bodies touch, an edge of one starts where an edge of the other ends, and goes back: no
     chain does.
@@ -97,10 +107,10 @@ def chains(edges: np.ndarray) -> list[np.ndarray]:
     for e, start in enumerate(edges[:, 0]):
         starting[tuple(start)].append(e)
     following = {}
-    for e, end in enumerate(edges[:, 1]):
-        on = [f for f in starting[tuple(end)] if cosine(edges[e], edges[f]) > back]
+    for e, end in enumerate(edges[:, -1]):
+        on = [f for f in starting[tuple(end)] if cosine(edges[e, -2:], edges[f, :2]) > back]
         if on:
-            following[e] = max(on, key=lambda f: cosine(edges[e], edges[f]))
+            following[e] = max(on, key=lambda f: cosine(edges[e, -2:], edges[f, :2]))
     goes_on = set(following.values())
     left = dict.fromkeys(sorted(range(len(edges)), key=lambda e: e in goes_on))  # ends come first
     found = []
@@ -120,6 +130,23 @@ def cosine(edge: np.ndarray, other: np.ndarray) -> float:
     return float(along @ on / np.sqrt((along @ along) * (on @ on)))
 
 
+def lines_of(edges: np.ndarray) -> list[np.ndarray]:
+    """(n, Q, 2) -> the points of each chain of edges: (points, 2)."""
+    return [np.vstack([edges[chain, :-1].reshape(-1, 2), edges[chain[-1:], -1]]) for chain in chains(edges)]
+
+
+def between(ends: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """(..., Q, c) along edges -> (..., places, c): linear between their points; places: from 0 to 1."""
+    q = ends.shape[-2]
+    weights = np.maximum(0, 1 - np.abs((q - 1) * places[:, None] - np.arange(q)))
+    return np.einsum("kq,...qc->...kc", weights, ends)
+
+
+def lengths_of(edges: np.ndarray) -> np.ndarray:
+    """(n, Q, 2) -> (n,) mm."""
+    return np.hypot(*np.moveaxis(np.diff(edges, axis=1), -1, 0)).sum(1)
+
+
 def largest_shear(stress: np.ndarray) -> np.ndarray:
     """tau_max = sqrt(((sxx - syy)/2)^2 + sxy^2), MPa; (..., 3) -> (...)."""
     return np.hypot((stress[..., 0] - stress[..., 1]) / 2, stress[..., 2])
@@ -134,21 +161,26 @@ def area(starts: np.ndarray, ends: np.ndarray) -> float:
 class Unrolled:
     """Of a face, a chain of n edges with the body on their left."""
 
-    edges: np.ndarray  # (n, 2, 2) mm
-    along: np.ndarray  # (n, 2) mm: start and end of each edge, on the picture's axis
+    edges: np.ndarray  # (n, Q, 2) mm
+    along: np.ndarray  # (n, Q) mm: their points on the picture's axis
     axis: str
 
     @property
     def closed(self) -> bool:
-        return bool((self.edges[0, 0] == self.edges[-1, 1]).all())
+        return bool((self.edges[0, 0] == self.edges[-1, -1]).all())
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        return self.along[0, 0], self.along[-1, -1]
 
     def of(self, points: np.ndarray) -> np.ndarray:
         """(..., 2) -> distance outward and place along, of the nearest point of the face; beyond its
         ends, of the lines that go on from there."""
         flat = points.reshape(-1, 2)
         nearest, found = np.full(len(flat), np.inf), np.empty((len(flat), 2))
-        last = len(self.edges) - 1
-        for k, (start, end) in enumerate(self.edges):
+        starts, ends = self.edges[:, :-1].reshape(-1, 2), self.edges[:, 1:].reshape(-1, 2)
+        last, along = len(starts) - 1, self.along[:, :-1].ravel()
+        for k, (start, end) in enumerate(zip(starts, ends)):
             length = np.hypot(*(end - start))
             tangent = (end - start) / length
             t = (flat - start) @ tangent
@@ -162,7 +194,7 @@ class Unrolled:
             closer = distance < nearest
             nearest = np.where(closer, distance, nearest)
             off = np.where(t == t_on, outward, sign * np.hypot(outward, t - t_on))
-            found[closer] = np.column_stack([off, self.along[k, 0] + t_on])[closer]
+            found[closer] = np.column_stack([off, along[k] + t_on])[closer]
         return found.reshape(points.shape)
 
     def seen(self, s: Fields, face: np.ndarray, depth: float) -> Fields:
@@ -170,26 +202,26 @@ class Unrolled:
         low = self.edges.min(axis=(0, 1)) - depth
         high = self.edges.max(axis=(0, 1)) + depth
         # What is wider lies across the beginning of a ring.
-        widest = self.along[-1, 1] / 2 if self.closed else np.inf
+        widest = self.limits[1] / 2 if self.closed else np.inf
 
         def near(shapes: np.ndarray) -> np.ndarray:
             return ((shapes.max(1) > low) & (shapes.min(1) < high)).all(1)
 
         chosen = near(s.triangles)
-        corners, stress = self.of(s.corners[chosen]), s.stress[chosen]
-        kept = np.ptp(corners[..., 1].reshape(len(corners), 9), axis=1) < widest
+        points, stress = self.of(s.points[chosen]), s.stress[chosen]
+        kept = np.ptp(points[..., 1], axis=(1, 2)) < widest
         outline = near(s.boundary)
         boundary, role = self.of(s.boundary[outline]), s.role[outline]
         lines = np.ptp(boundary[..., 1], axis=1) < widest
-        return replace(s, corners=corners[kept], stress=stress[kept], boundary=boundary[lines],
+        return replace(s, points=points[kept], stress=stress[kept], boundary=boundary[lines],
                        role=role[lines], traction=s.traction[face], state=s.state[face], of_face=True,
                        load=None, moved=None, normal=None, gap=None, paired=None,
                        edges=np.stack([np.zeros_like(self.along), self.along], -1))
 
 
 def parts(along: np.ndarray, m: int) -> np.ndarray:
-    """(edges, 2) -> (points of the face, 2): start and end of the m-th part of its edge around each point."""
-    ends = np.linspace(along[:, 0], along[:, 1], m + 1, axis=1)
+    """(edges, Q) -> (points of the face, 2): start and end of the m-th part of its edge around each point."""
+    ends = np.linspace(along[:, 0], along[:, -1], m + 1, axis=1)
     return np.stack([ends[:, :-1], ends[:, 1:]], -1).reshape(-1, 2)
 
 
@@ -198,8 +230,9 @@ def by_edge(points: np.ndarray) -> np.ndarray | None:
     for m in range(2, MOST_POINTS + 1):
         if len(points) % m == 0:
             own = points.reshape(-1, m, points.shape[1])
-            chords = own[:, -1, :2] - own[:, 0, :2]
-            if np.allclose(np.hypot(*chords.T), own[:, 0, 4], rtol=1e-6):
+            steps = np.hypot(*np.moveaxis(np.diff(own[..., :2], axis=1), -1, 0))
+            lengths = (own[:, 1:, 4] + own[:, :-1, 4]) / 2  # on a curve of the edge as it is there
+            if np.allclose((m - 1) * steps, lengths, rtol=0.1):
                 return own
     return None
 
@@ -218,13 +251,13 @@ def part_shown(along: np.ndarray, touched: np.ndarray) -> tuple[float, float]:
 
 def unrolled(edges: np.ndarray) -> Unrolled:
     """A straight face along x or y has that coordinate as its axis, others the length from their start."""
-    lengths = np.hypot(*(edges[:, 1] - edges[:, 0]).T)
-    ends = np.cumsum(lengths)
-    chord = edges[-1, 1] - edges[0, 0]
+    steps = np.hypot(*np.moveaxis(np.diff(edges, axis=1), -1, 0))
+    ends = np.cumsum(steps).reshape(steps.shape)
+    chord = edges[-1, -1] - edges[0, 0]
     span = np.hypot(*chord)
-    along = np.stack([ends - lengths, ends], 1)
+    along = np.hstack([ends[:, :1] - steps[:, :1], ends])
     for k, name in enumerate("xy"):
-        if span > STRAIGHT * ends[-1] and chord[k] > STRAIGHT * span:
+        if span > STRAIGHT * ends[-1, -1] and chord[k] > STRAIGHT * span:
             return Unrolled(edges, along + edges[0, 0, k], f"{name}, mm")
     return Unrolled(edges, along, BY_LENGTH)
 
@@ -270,9 +303,9 @@ def read_error_share(results: Path, s: Fields) -> np.ndarray:
     throws RecordsError."""
     path = results / "fields" / f"{s.name}.error.csv"
     rows, _ = read_table(path, ERROR)
-    if not np.array_equal(rows[:, 0], np.arange(len(s.corners)) + 1):
+    if not np.array_equal(rows[:, 0], np.arange(len(s.points)) + 1):
         raise RecordsError(f"{path}: {len(rows)} rows; expected one for each of the "
-                          f"{len(s.corners)} triangles of {s.name}.stress.csv, from 1")
+                          f"{len(s.points)} triangles of {s.name}.stress.csv, from 1")
     wrong = np.flatnonzero((rows[:, 1] < 0) | (rows[:, 1] > 1))
     if wrong.size:
         raise RecordsError(f"{path}:{wrong[0] + 2}: error_share is '{rows[wrong[0], 1]:g}', "
@@ -292,9 +325,10 @@ def names_in(results: Path, part: str = "stress") -> list[str]:
 
 
 def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
-    """One solution; throws RecordsError. The three files must describe the same body."""
+    """One solution; throws RecordsError. Its files must describe the same body. Without cells of a higher
+    degree the stresses are taken as linear on each third, and sides as straight."""
     path = {part: results / "fields" / f"{name}.{part}.csv"
-            for part in ("stress", "contact", "boundary")}
+            for part in ("stress", "contact", "boundary", "displacement")}
     rows, _ = read_table(path["stress"], STRESS)
     n = len(rows) // 9
     count = np.arange(len(rows))
@@ -318,15 +352,38 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
     if of_edges is None or not np.array_equal(of_edges[:, [0, -1], :2], contact):
         raise RecordsError(f"{path['contact']}: {len(points)} points; expected start and end of "
                           f"each of the {len(contact)} contact edges of {path['boundary'].name}")
-    record = record_of(records, name)
-    m = of_edges.shape[1]
-    lengths = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None]
-    return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
-                  traction=of_edges[..., 5:7] / (lengths / m),  # F = (L/m) t
-                  state=state.reshape(-1, m), mesh=record["mesh"], n_phi=record["n_phi"], load=load,
-                  moved=moved_boundary(results / "fields" / f"{name}.displacement.csv", boundary),
-                  normal=of_edges[..., 2:4], gap=of_edges[..., 7],
-                  paired=np.isfinite(of_edges[..., 9]).any(1))
+    record, m = record_of(records, name), of_edges.shape[1]
+    s = Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
+               traction=of_edges[..., 5:7] / (of_edges[..., 4:5] / m),  # F = (L/m) t
+               state=state.reshape(-1, m), mesh=record["mesh"], n_phi=record["n_phi"], load=load,
+               moved=moved_boundary(path["displacement"], boundary),
+               normal=of_edges[..., 2:4], gap=of_edges[..., 7],
+               paired=np.isfinite(of_edges[..., 9]).any(1))
+    cells = results / "fields" / f"{name}.vtu"
+    return with_cells(s, read_cells(cells), cells) if cells.is_file() else s
+
+
+def with_cells(s: Fields, cells: Cells, path: Path) -> Fields:
+    """The solution with the polynomials of its cells, and with edges along their curves."""
+    shape, size = (len(s.points), 3, cells.points.shape[1]), np.ptp(s.boundary, axis=(0, 1)).max()
+    if len(cells.points) != 3 * shape[0] or not np.allclose(
+            cells.points[:, :3].reshape(s.points.shape), s.points, rtol=0, atol=1e-9 * size):
+        raise RecordsError(f"{path}: other triangles than in {s.name}.stress.csv")
+    if shape[2] == 3:
+        return s
+    thirds = {(tuple(start), tuple(end)): k
+              for k, (start, end) in enumerate(s.points[:, :, :2].reshape(-1, 2, 2).tolist())}
+    own = [thirds.get((tuple(start), tuple(end))) for start, end in s.boundary.tolist()]
+    if None in own:
+        raise RecordsError(f"{path.with_suffix('.boundary.csv')}:{own.index(None) + 2}: not a side of a triangle")
+    s = replace(s, points=cells.points.reshape(*shape, 2), stress=cells.stress.reshape(*shape, 3))
+    along = along_side(shape[2], ON_CURVE - 1)
+    sides = along @ cells.points[own]
+    sides[:, [0, -1]] = s.boundary
+    if np.allclose(sides, between(s.boundary, np.linspace(0, 1, ON_CURVE)), rtol=0, atol=1e-9 * size):
+        return s
+    return replace(s, boundary=sides, edges=sides[s.role == "contact"],
+                   moved=None if s.moved is None or cells.moved is None else along @ cells.moved[own])
 
 
 def moved_boundary(path: Path, boundary: np.ndarray) -> np.ndarray | None:

@@ -50,7 +50,7 @@ WIDTH, FOOTER, LINE, ROOT = PAGE_WIDTH, 0.62, 0.15, 0.12  # inches: of words, an
 BODY = 5.0  # highest body in its own picture
 STRESS = (r"Colour: the largest shear stress in the plane, "
           r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, "
-          "linear on each third of a triangle, not averaged.")
+          "of the stresses as they were solved, not averaged.")
 FACES = ("{}: contact faces, enlarged and straightened, with elements, states of the points ({} per "
          "edge), pressure, friction.")
 POINTS = {2: "two", 3: "three", 4: "four", 5: "five"}
@@ -130,7 +130,7 @@ def most_of(part: float) -> str:
 
 def draw_shares(axes: Axes, s: Fields, values: np.ndarray, norm: LogNorm, shades: Colormap,
                 **edges: object) -> None:
-    axes.add_collection(PolyCollection(s.placed(s.triangles), array=np.maximum(values, norm.vmin),
+    axes.add_collection(PolyCollection(s.placed(s.outlines), array=np.maximum(values, norm.vmin),
                                        norm=norm, cmap=shades, rasterized=True, **edges))
     draw_boundary(axes, s)
 
@@ -216,7 +216,7 @@ def draw_levels(levels: list[Level], titles: tuple[str, ...] = ()) -> Figure:
                     above + row * (height + WORDS), panel, height, xlim=view.intervalx,
                     ylim=view.intervaly) for row in (0, 1))
         draw_body(upper, s, scales)
-        words = f"{len(s.corners)} triangles"
+        words = f"{len(s.points)} triangles"
         words += f", total error {percent(error)}" if error is not None else ""
         upper.set_title("\n".join([*titles[k:k + 1], words]), pad=4)
         draw_shares(lower, s, share * len(share), norm, shades, edgecolor="none")

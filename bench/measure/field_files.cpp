@@ -12,6 +12,7 @@
 #include "bench/measure/part_picture.hpp"
 #include "bench/measure/stress_samples.hpp"
 #include "bench/measure/vtu.hpp"
+#include "bench/verify/along_contact.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "mesh/boundary_sides.hpp"
 #include "solvers/contact/coulomb_law.hpp"
@@ -91,19 +92,19 @@ std::string contact_csv(const ContactPicture& picture) {
   return text;
 }
 
-std::string boundary_csv(const Problem& problem) {
+std::string boundary_csv(const Problem& problem, int degree) {
   std::string text = "x0_mm,y0_mm,x1_mm,y1_mm,rolls,t0_x_MPa,t0_y_MPa,t1_x_MPa,t1_y_MPa,role\n";
-  for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = problem.mesh.boundary[row];
     const auto &a = problem.mesh.vertices[edge.vertices[0]],
                &b = problem.mesh.vertices[edge.vertices[1]];
     text += fmt::format("{},{},{},{},", a.x(), a.y(), b.x(), b.y());
-    const std::vector<bool>& rollers = problem.loads.rollers;
-    text += edge.role == BoundaryRole::displacement && !rollers.empty() && rollers[row] ? "1" : "0";
-    for (const Eigen::Vector2d& x : {a, b}) {
+    text += edge.role == BoundaryRole::displacement && problem.is_roller(row) ? "1" : "0";
+    for (const int end : {0, 1}) {
       Eigen::Vector2d t(0, 0);
       if (edge.role == BoundaryRole::force && problem.loads.traction_MPa)
-        t = problem.loads.traction_MPa(x, edge_frame(a, b).normal, static_cast<int>(row));
+        t = problem.loads.traction_MPa(end == 0 ? a : b, normal_on_edge(problem, row, degree, end),
+                                       row);
       text += fmt::format(",{},{}", t.x(), t.y());
     }
     text += fmt::format(",{}\n", boundary_role_names[static_cast<std::size_t>(edge.role)]);
@@ -335,7 +336,7 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
   std::optional<DisplacementField> u;
   if (fields.w) u = with_rigid_motion(problem, *fields.w);
   write(".stress.csv", stress_csv(problem, stress));
-  write(".boundary.csv", boundary_csv(problem));
+  write(".boundary.csv", boundary_csv(problem, stress.degree()));
   const bool is_part = fields.solution.as<Displacements>() == nullptr;  // else F_C has other points
   const PartFiles part = is_part ? part_files(fields, contact) : PartFiles();
   write_if(is_part, ".answer.json", [&] { return json_text(to_json(part.answer)); });

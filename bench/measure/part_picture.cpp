@@ -57,7 +57,6 @@ std::string outline_csv(const Problem& problem, int degree,
   std::string text = "edge,piece,x_mm,y_mm,ux_mm,uy_mm,tx_MPa,ty_MPa,role\n";
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
-    const Eigen::Vector2d a = mesh.vertices[edge.vertices[0]], b = mesh.vertices[edge.vertices[1]];
     const int t = sides[static_cast<std::size_t>(row)].triangle;
     Eigen::Matrix3d corners;
     corners << problem.vertices_of(t), Eigen::RowVector3d::Ones();
@@ -73,7 +72,7 @@ std::string outline_csv(const Problem& problem, int degree,
       }
       Eigen::Vector2d traction(0, 0);
       if (edge.role == BoundaryRole::force && problem.loads.traction_MPa)
-        traction = problem.loads.traction_MPa(x, edge_frame(a, b).normal, row);
+        traction = problem.loads.traction_MPa(x, normal_on_edge(problem, row, degree, s), row);
       text += fmt::format("{},{},{:.8g},{:.8g},{},{:.6g},{:.6g},{}\n", row + 1,
                           pieces.of_vertex[edge.vertices[0]] + 1, x.x(), x.y(), moved, traction.x(),
                           traction.y(), role_of(problem, row));

@@ -23,6 +23,14 @@ inline Eigen::Vector2d point_on_edge(const Problem& problem, int row, int degree
   return (1 - s) * problem.mesh.vertices[start] + s * problem.mesh.vertices[end];
 }
 
+// The outward normal there.
+inline Eigen::Vector2d normal_on_edge(const Problem& problem, int row, int degree, double s) {
+  const BoundaryEdge& edge = problem.mesh.boundary[row];
+  if (problem.follows_curve(row, degree)) return edge.curve.normal(s);
+  const auto [start, end] = edge.vertices;
+  return edge_frame(problem.mesh.vertices[start], problem.mesh.vertices[end]).normal;
+}
+
 // Of the pressure, MPa, from the normal components of F_j, N. On a curve, where it is (k + 1) Σ B_j
 // F_j/|x′|, of its interpolant at ξ = j/k.
 inline AlongEdge pressure_along(const Problem& problem, int row, const AlongEdge& normal_forces) {

@@ -119,8 +119,8 @@ class UnrolledTest(unittest.TestCase):
     def test_a_face_sees_all_triangles_next_to_it(self) -> None:
         s = bar(10, 8, 1)
         seen = unrolled(s.edges).seen(s, np.arange(4), 0.5)
-        self.assertEqual((len(seen.corners), seen.of_face), (2, True))
-        np.testing.assert_allclose(seen.corners, s.corners - [11, 0], atol=1e-12)
+        self.assertEqual((len(seen.points), seen.of_face), (2, True))
+        np.testing.assert_allclose(seen.points, s.points - [11, 0], atol=1e-12)
 
     def test_a_ring_has_no_triangle_across_its_beginning(self) -> None:
         edges = self.arc(40, 2 * np.pi)
@@ -132,7 +132,7 @@ class UnrolledTest(unittest.TestCase):
                    np.zeros((40, 2, 2)), np.full((40, 2), "open"), "ring", None)
         line = unrolled(edges)
         seen = line.seen(s, np.arange(40), 1.0)
-        self.assertGreaterEqual(len(seen.corners), 38)
+        self.assertGreaterEqual(len(seen.points), 38)
         width = np.ptp(seen.triangles[..., 1], axis=1)
         self.assertLess(width.max(), 2)
         np.testing.assert_allclose(seen.edges[:, 1, 1], np.cumsum(np.hypot(

@@ -293,7 +293,7 @@ class ErrorMapTest(unittest.TestCase):
 class FieldsTest(unittest.TestCase):
     def test_read_back(self) -> None:
         s = solution("mesh,scene,method,n_phi\nMesh0,other,3STEPD,1\nMesh0,default,3STEPD,761\n")
-        self.assertEqual((s.corners.shape, s.mesh, s.n_phi), ((2, 3, 3, 2), "Mesh0", 761))
+        self.assertEqual((s.points.shape, s.mesh, s.n_phi), ((2, 3, 3, 2), "Mesh0", 761))
         np.testing.assert_array_equal(s.triangles[1], [CORNERS[0], CORNERS[2], CORNERS[3]])
         np.testing.assert_allclose(s.traction, [[[-30, -6], [0, 0]]])  # F = (L/2) t, L = 2
         self.assertEqual(s.state.tolist(), [["slip", "open"]])
