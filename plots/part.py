@@ -50,6 +50,8 @@ COMB_PT = 6     # between the lines that fill a pressure
 TRIANGLE = np.array([(0, 0), (-0.9, -1.5), (0.9, -1.5), (0, 0)])  # below a point that is held
 IN_POINT = dict(linestyle="none", markersize=13, markerfacecolor="white", markeredgecolor="black",
                 markeredgewidth=0.8, zorder=7)
+UNBOUNDED = dict(linestyle="none", marker="x", markersize=5, markeredgecolor="#D55E00", markeredgewidth=1.4,
+                 zorder=7, clip_on=True)
 NOTE = dict(fontsize=TYPE, path_effects=[withStroke(linewidth=2.5, foreground="white")], zorder=8)
 
 
@@ -96,7 +98,7 @@ def read_part(results: Path) -> Part:
         return read
 
     answer = json_of(text_of(path("answer.json")), str(path("answer.json")))
-    if "point_supports" not in answer:
+    if not isinstance(answer.get("unbounded"), list):
         raise RecordsError(f"{path('answer.json')}: of an earlier bench; expected the present one's: solve it again")
     stress = table("von_mises.csv", "third")
     faces = pd.read_csv(path("faces.csv"))
@@ -117,13 +119,8 @@ def cells_of(points: int) -> np.ndarray:
 
 
 def scale_of(part: Part) -> Normalize:
-    """To the largest stress; where that is not bounded, to what most of the body has."""
-    if "unbounded" not in part.answer["von_mises_MPa"]:
-        return Normalize(0, part.answer["von_mises_MPa"]["value"] or 1)
-    a, b, c = (part.thirds[:, k, :2] for k in (0, round(np.sqrt(2 * part.thirds.shape[1] + 0.25) - 1.5), -1))
-    area = np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-    return Normalize(0, highest_but(part.thirds[..., 2].ravel(), np.repeat(area, part.thirds.shape[1]),
-                                    0.995, 1.6) or 1)
+    """To the largest stress away from places where it is unbounded."""
+    return Normalize(0, part.answer["von_mises_MPa"]["value"] or 1)
 
 
 def draw_stress(axes: Axes, part: Part, scale: Normalize, view: np.ndarray) -> None:
@@ -255,9 +252,10 @@ def draw_loads(axes: Axes, part: Part, largest: float) -> None:
 
 
 def mark_largest(axes: Axes, part: Part, view: np.ndarray) -> None:
+    for place in part.answer["unbounded"]:
+        axes.plot(*place["at_mm"], **UNBOUNDED)
     stress = part.answer["von_mises_MPa"]
-    unbounded = stress.get("unbounded")
-    at = np.array((unbounded or stress)["at_mm"])
+    at = np.array(stress["at_mm"])
     if not stress["value"] > 0 or (at < view[0]).any() or (at > view[1]).any():
         return
     for colour, width in (("white", 2.6), ("black", 1.2)):
@@ -268,10 +266,9 @@ def mark_largest(axes: Axes, part: Part, view: np.ndarray) -> None:
         if np.hypot(*(away := at - face["pressure_MPa"]["at_mm"])) < TALLEST * np.ptp(view[:, 0]):
             up = 0 if away[1] >= 0 and at[1] != view[0, 1] else 1
     off = f" ± {stress['off']:.2g}" if "off" in stress else ""
-    words = f"unbounded: {unbounded['what']}" if unbounded else f"largest {stress['value']:.4g}{off} MPa"
     side = 0 if abs(across - 0.5) < 0.1 else 1 if across < 0.5 else -1  # of the words
-    axes.annotate(words, at, xytext=(9 * side, 12 if up < 0.5 else -12), textcoords="offset points",
-                  weight="bold", ha=("center", "left", "right")[side],
+    axes.annotate(f"largest {stress['value']:.4g}{off} MPa", at, xytext=(9 * side, 12 if up < 0.5 else -12),
+                  textcoords="offset points", weight="bold", ha=("center", "left", "right")[side],
                   va="bottom" if up < 0.5 else "top", **NOTE)
 
 
@@ -347,7 +344,7 @@ def draw(part: Part) -> Figure:
         enlarged.set_title("contact, enlarged", pad=3)
     draw_legend(figure, part, times, load, limit > 0)
     bar = bar_below(figure, ScalarMappable(scale, COLORMAP), 0.64, 0.31, "von Mises stress, MPa" +
-                    ("; brightest: this or more" if "unbounded" in part.answer["von_mises_MPa"] else ""))
+                    ("; brightest: this or more" if part.answer["unbounded"] else ""))
     bar.locator = MaxNLocator(5)
     return figure
 
@@ -358,6 +355,7 @@ def draw_legend(figure: Figure, part: Part, times: float | None, load: float, ha
              ("on rollers", "rollers" in part.roles, edge | ROLLER | {"linestyle": "-"}),
              ("held in a point", bool(part.answer["point_supports"]), IN_POINT | {"marker": TRIANGLE}),
              ("contact", "contact" in part.roles, ROLE["contact"]),
+             ("stress unbounded", bool(part.answer["unbounded"]), UNBOUNDED),
              (f"outline, displacement × {times or 0:g}", times is not None, OUTLINE),
              (f"load, up to {load:.3g} MPa", load > 0, edge | {"marker": ">", "markersize": 4}))
     handles = [Line2D([], [], **style, label=label) for label, drawn, style in lines if drawn]

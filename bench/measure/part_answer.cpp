@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <tuple>
 
 #include "assembly/elements/edge_forces.hpp"
@@ -34,7 +33,8 @@ class PartReader {
         states_(contact_states(system_.contact, F_C_)),
         error_(fields.error),
         intervals_(fields.intervals),
-        side_(boundary_sides(problem_.edges)) {
+        side_(boundary_sides(problem_.edges)),
+        singular_(singular_places(system_, degree_, F_C_)) {
     point_of_row_.assign(mesh_.boundary.size(), 0);
     for (int p = 0; p < system_.contact.count; p += system_.contact.per_edge)
       point_of_row_[static_cast<std::size_t>(system_.contact.boundary[p])] = p;
@@ -50,6 +50,7 @@ class PartReader {
     if (w && answer.free_motion.empty())
       answer.displacement_mm = largest_displacement(with_rigid_motion(problem_, *w));
     std::tie(answer.von_mises, answer.principal) = judged_largest_stresses(w);
+    answer.unbounded = singular_;
     return answer;
   }
 
@@ -59,8 +60,7 @@ class PartReader {
     std::array<double, 2> least = {infinity, infinity};  // that may be the largest
     for (const auto& [largest, from] :
          {std::pair(&judged.first, &least[0]), {&judged.second, &least[1]}})
-      if (const double value = std::abs(largest->value);
-          !largest->unbounded && largest->off_MPa && value > 0) {
+      if (const double value = std::abs(largest->value); largest->off_MPa && value > 0) {
         doubt.relative = std::max(doubt.relative, *largest->off_MPa / value);
         *from = value - *largest->off_MPa;
       }
@@ -115,8 +115,6 @@ class PartReader {
   std::pair<LargestStress, LargestStress> judged_largest_stresses(
       const std::optional<DisplacementField>& w) const {
     std::pair<LargestStress, LargestStress> judged = largest_stresses(stress_);
-    for (LargestStress* largest : {&judged.first, &judged.second})
-      largest->unbounded = singular_place_near(largest->at_mm, largest->triangle);
     if (w && error_ != nullptr) {
       const auto [von_mises, principal] = largest_stresses(stress_of_displacement(problem_, *w));
       // For one unit of energy density: von Mises² ≤ 3 G σ:C:σ, principal² ≤ A_nnnn σ:C:σ.
@@ -124,9 +122,9 @@ class PartReader {
                                 double factor) {
         const int t = largest.triangle;
         const Eigen::Matrix3d A = elasticity_of(problem_.compliance_of(t));
-        largest.off_MPa =
-            twice_estimated_error_MPa(problem_, *error_, t, factor * A(component, component),
-                                      largest.value - of_displacements, std::abs(largest.value));
+        largest.off_MPa = twice_estimated_error_MPa(
+            problem_, *error_, t, factor * A(component, component),
+            std::abs(largest.value) - std::abs(of_displacements), std::abs(largest.value));
       };
       estimate(judged.first, von_mises.value, 2, 3);
       estimate(judged.second, principal.value, 0, 1);
@@ -136,7 +134,6 @@ class PartReader {
 
   int rows() const { return static_cast<int>(mesh_.boundary.size()); }
   std::string label(int row) const { return boundary_label(mesh_, mesh_.boundary[row]); }
-  bool is_contact(int row) const { return mesh_.boundary[row].role == BoundaryRole::contact; }
 
   Eigen::Vector2d at(int row, double s) const { return point_on_edge(problem_, row, degree_, s); }
   double length(int row) const {
@@ -214,14 +211,20 @@ class PartReader {
     return largest;
   }
 
-  // visit(triangle, x, von Mises, the principal stress of larger magnitude).
+  // visit(triangle, x, von Mises, the principal stress of larger magnitude), away from singular
+  // places.
   template <typename Visit>
   void each_sample(const StressField& stress, const Visit& visit) const {
     const StressSamples samples(problem_, stress, 6);
-    for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+      const std::vector<const SingularPlace*> near = places_near(t);
       for (int k = 0; k < 3; ++k) {
         const StressSamples::Third third = samples.third(t, k);
         for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i) {
+          if (std::ranges::any_of(near, [&](const SingularPlace* place) {
+                return (place->at_mm - third.at_mm.col(i)).norm() < place->within_mm;
+              }))
+            continue;
           const Eigen::Vector3d s = third.stress.col(i);
           const Eigen::Vector2d principal = principal_stresses(s);
           const Eigen::Vector2d x = third.at_mm.col(i);
@@ -229,13 +232,14 @@ class PartReader {
                 std::abs(principal(0)) >= std::abs(principal(1)) ? principal(0) : principal(1));
         }
       }
+    }
   }
 
   // Von Mises and principal.
   std::pair<LargestStress, LargestStress> largest_stresses(const StressField& stress) const {
     std::pair<LargestStress, LargestStress> both;
     const auto take = [](LargestStress& largest, double value, const Eigen::Vector2d& x, int t) {
-      if (std::abs(value) > std::abs(largest.value)) largest = {{value, x}, t, {}, {}};
+      if (std::abs(value) > std::abs(largest.value)) largest = {{value, x}, t, {}};
     };
     each_sample(stress, [&](int t, const Eigen::Vector2d& x, double of_mises, double principal) {
       take(both.first, of_mises, x, t);
@@ -244,77 +248,15 @@ class PartReader {
     return both;
   }
 
-  // How a side is held: not at all, along its normal only, or as a whole.
-  enum class Hold : std::uint8_t { free, normal, full };
-  Hold hold_at(int row, bool at_end) const {
-    switch (mesh_.boundary[row].role) {
-      case BoundaryRole::force:
-        return Hold::free;
-      case BoundaryRole::displacement:
-        return problem_.is_roller(row) ? Hold::normal : Hold::full;
-      case BoundaryRole::contact:
-        break;
-    }
-    const int p =
-        point_of_row_[static_cast<std::size_t>(row)] + (at_end ? system_.contact.per_edge - 1 : 0);
-    switch (states_[static_cast<std::size_t>(p)]) {
-      case ContactState::open:
-        return Hold::free;
-      case ContactState::stick:
-        return Hold::full;
-      case ContactState::slip:
-        break;
-    }
-    // Where a face slips with friction one of its ends is singular, as where it sticks.
-    return problem_.friction_at(row) > 0 ? Hold::full : Hold::normal;
-  }
-  Eigen::Vector2d direction(int row, double s) const {
-    const BoundaryEdge& edge = mesh_.boundary[row];
-    return problem_.follows_curve(row, degree_) ? edge.curve.derivative(s)
-                                                : Eigen::Vector2d(mesh_.vertices[edge.vertices[1]] -
-                                                                  mesh_.vertices[edge.vertices[0]]);
-  }
-
-  // By the exponents of wedges: clamped and free from 60° on at the latest; a side held along its
-  // normal is half of a wedge of twice the angle.
-  std::optional<std::string> what_is_singular(int before, int after) const {
-    constexpr double degree = std::numbers::pi / 180;
-    const Eigen::Vector2d in = direction(before, 1), out = direction(after, 0);
-    const double inside = std::numbers::pi - turning_angle(in, out);
-    if (inside > 359 * degree) return end_of(before, after);
-    // Contact opens, sticks and slips within a face where stresses stay finite.
-    if (is_contact(before) && is_contact(after) && label(before) == label(after) &&
-        std::abs(inside - std::numbers::pi) < degree)
-      return {};
-    const Hold a = hold_at(before, true), b = hold_at(after, false);
-    const auto [less, more] = std::minmax(a, b);
-    if (a == b)
-      return inside > 181 * degree ? std::optional<std::string>("a re-entrant corner")
-                                   : std::nullopt;
-    if (less == Hold::free && more == Hold::full)
-      return inside > 60 * degree ? std::optional(end_of(before, after)) : std::nullopt;
-    return inside > 91 * degree ? std::optional(end_of(before, after)) : std::nullopt;
-  }
-  std::string end_of(int before, int after) const {
-    for (const int row : {before, after})
-      if (is_contact(row)) return "the end of " + label(row);
-    const bool is_first = mesh_.boundary[before].role == BoundaryRole::displacement;
-    return "the end of " + label(is_first ? before : after);
-  }
-
-  std::optional<SingularPlace> singular_place_near(const Eigen::Vector2d& x, int triangle) const {
+  std::vector<const SingularPlace*> places_near(int triangle) const {
     const TriangleVertices v = problem_.vertices_of(triangle);
-    double size = 0;
-    for (int k = 0; k < 3; ++k) size = std::max(size, (v.col((k + 1) % 3) - v.col(k)).norm());
-    std::map<int, int> before;  // rows that end in a vertex
-    for (int row = 0; row < rows(); ++row) before[mesh_.boundary[row].vertices[1]] = row;
-    for (int row = 0; row < rows(); ++row) {
-      const int vertex = mesh_.boundary[row].vertices[0];
-      if ((mesh_.vertices[vertex] - x).norm() > 2 * size) continue;
-      if (const auto what = what_is_singular(before.at(vertex), row))
-        return SingularPlace{mesh_.vertices[vertex], *what};
-    }
-    return {};
+    const Eigen::Vector2d centroid = v.rowwise().mean();
+    const double radius =
+        1.5 * (v.colwise() - centroid).colwise().norm().maxCoeff();  // with curves
+    std::vector<const SingularPlace*> near;
+    for (const SingularPlace& place : singular_)
+      if ((place.at_mm - centroid).norm() < place.within_mm + radius) near.push_back(&place);
+    return near;
   }
 
   const ContactSystem& system_;
@@ -328,6 +270,7 @@ class PartReader {
   const ContactIntervals* intervals_;
   std::vector<TriangleSide> side_;  // per row of Mesh::boundary
   std::vector<int> point_of_row_;   // its first contact point
+  std::vector<SingularPlace> singular_;
 };
 
 Json point(const Eigen::Vector2d& x) { return Json::array({x.x(), x.y()}); }
@@ -337,8 +280,6 @@ Json to_json(const ValueAt& value) {
 Json to_json(const LargestStress& largest) {
   Json json = to_json(static_cast<const ValueAt&>(largest));
   if (largest.off_MPa) json["off"] = *largest.off_MPa;
-  if (const auto& place = largest.unbounded)
-    json["unbounded"] = {{"what", place->what}, {"at_mm", point(place->at_mm)}};
   return json;
 }
 Json to_json(const PointSupport& support) {
@@ -415,6 +356,10 @@ Json to_json(const PartAnswer& answer) {
   if (!answer.free_motion.empty()) json["free_motion"] = answer.free_motion;
   json["von_mises_MPa"] = to_json(answer.von_mises);
   json["principal_MPa"] = to_json(answer.principal);
+  json["unbounded"] = Json::array();
+  for (const SingularPlace& place : answer.unbounded)
+    json["unbounded"].push_back(
+        {{"what", place.what}, {"at_mm", point(place.at_mm)}, {"within_mm", place.within_mm}});
   return json;
 }
 

@@ -3,7 +3,9 @@
 //
 // Largest values are those of samples of the stresses' polynomials, 28 a third. Where the
 // exact stress is infinite (a corner of more than 180°, the end of a support or of a face that
-// sticks) they grow with every refinement; such places are named instead.
+// sticks) they would grow with every refinement; such places are named, and the largest stress is
+// that of the body outside their circles (singular_places.hpp), so that it is the same on every
+// mesh.
 #pragma once
 
 #include <optional>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "bench/measure/field_files.hpp"
+#include "bench/measure/singular_places.hpp"
 #include "bench/records/json.hpp"
 
 namespace airybench {
@@ -34,14 +37,8 @@ struct SupportAnswer {
   Eigen::Vector2d force_N = {0, 0};  // on the body
 };
 
-struct SingularPlace {
-  Eigen::Vector2d at_mm;
-  std::string what;  // "a re-entrant corner"
-};
-
 struct LargestStress : ValueAt {  // MPa
   int triangle = 0;
-  std::optional<SingularPlace> unbounded;  // where the largest is found next to such a place
   // An estimate of what it is off by, as that of the largest pressure (contact_intervals.hpp):
   // twice the sum of what the largest stress of the displacements differs by, of the mean error
   // that the triangle's e_T² allows, and of what errors elsewhere change.
@@ -55,6 +52,7 @@ struct PartAnswer {
   std::optional<ValueAt> displacement_mm;
   std::string free_motion;  // that nothing determines, nor the displacement; empty: there is none
   LargestStress von_mises, principal;  // principal: the largest by magnitude, with its sign
+  std::vector<SingularPlace> unbounded;
 };
 
 struct PartFiles {
@@ -70,7 +68,7 @@ struct StressDoubt {
   double relative = 0;         // off_MPa over the value: the worse of von Mises and principal
   std::vector<int> triangles;  // with stresses within off_MPa of the largest
 };
-// Of those that are not unbounded; empty: both are, or nothing is known.
+// Empty: nothing is known.
 std::optional<StressDoubt> stress_doubt(const SolvedFields& fields);
 
 Json to_json(const PartAnswer& answer);

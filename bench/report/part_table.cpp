@@ -1,9 +1,11 @@
 #include "bench/report/part_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "bench/records/summary.hpp"
@@ -102,6 +104,27 @@ void add_contact_lines(const Record& r, PartReport& report) {
   report.emplace_back(std::move(text));
 }
 
+// By what they are, the first three of each.
+void add_unbounded_line(const Json& places, PartReport& report) {
+  constexpr std::size_t max_named = 3;
+  std::map<std::string, std::vector<std::string>> by_what;
+  double within_mm = 0;
+  for (const Json& one : places) {
+    by_what[one["what"]].push_back(place(one["at_mm"]));
+    within_mm = std::max(within_mm, one["within_mm"].get<double>());
+  }
+  if (by_what.empty()) return;
+  std::string text;
+  for (auto& [what, all] : by_what) {
+    const std::size_t more = all.size() - std::min(all.size(), max_named);
+    all.resize(all.size() - more);
+    text += fmt::format("{}{}{}: {}", text.empty() ? "" : "; ", fmt::join(all, ", "),
+                        more > 0 ? fmt::format(" and {} more", more) : "", what);
+  }
+  report.emplace_back(fmt::format(
+      "stress unbounded at {} (largest: of what is more than {:.2g} mm away)", text, within_mm));
+}
+
 void add_stress_lines(const Json& part, PartReport& report) {
   if (part.contains("free_motion"))
     report.emplace_back(
@@ -114,17 +137,12 @@ void add_stress_lines(const Json& part, PartReport& report) {
   for (const auto& [name, key] :
        {std::pair("von Mises", "von_mises_MPa"), {"principal", "principal_MPa"}}) {
     const Json& largest = part[key];
-    std::string text;
-    if (largest.contains("unbounded"))
-      text = fmt::format("unbounded at {}, {}", place(largest["unbounded"]["at_mm"]),
-                         largest["unbounded"]["what"].get<std::string>());
-    else
-      text = fmt::format(
-          "{:.5g}{} MPa at {}", largest["value"].get<double>(),
-          largest.contains("off") ? fmt::format(" ± {:.2g}", largest["off"].get<double>()) : "",
-          place(largest["at_mm"]));
-    report.emplace_back(fmt::format("largest {} stress {}", name, text));
+    report.emplace_back(fmt::format(
+        "largest {} stress {:.5g}{} MPa at {}", name, largest["value"].get<double>(),
+        largest.contains("off") ? fmt::format(" ± {:.2g}", largest["off"].get<double>()) : "",
+        place(largest["at_mm"])));
   }
+  add_unbounded_line(part["unbounded"], report);
 }
 
 std::string percent(const std::optional<double>& share) {

@@ -37,7 +37,8 @@ def write_part(results: Path, **changes: object) -> None:
     write(results, "faces.csv", ["face,along_mm,x_mm,y_mm,pressure_MPa,shear_MPa,gap_mm,slip_mm,state"] +
           [f"contact:sole,{x},{x},0,{0.75 * x},0,0,0,stick" for x in (0, 2.5, 5, 7.5, 10)])
     face = {"labels": ["contact:sole"], "closed_mm": 10, "pressure_MPa": {"value": 7.5, "at_mm": [10, 0]}}
-    answer = {"faces": [face], "supports": [], "point_supports": [], "von_mises_MPa": {"value": 8, "at_mm": [10, 4]}}
+    answer = {"faces": [face], "supports": [], "point_supports": [], "von_mises_MPa": {"value": 8, "at_mm": [10, 4]},
+              "unbounded": []}
     shown = {"name": "block", "case": "block--HYBRID", "assumptions": "block: plane strain; steel: E 210000 MPa",
              "notes": ["block.inp: not used: *PREPRINT (block.inp:3)"], "largest_pressure_is": "bounded",
              "error_total": 0.009, "report": REPORT}
@@ -67,7 +68,7 @@ class PartTest(FolderTest):
                      "7.5 MPa", "largest 8 MPa", "outline, displacement × 5", "load, up to 5 MPa", "held",
                      "von Mises stress, MPa"):
             self.assertIn(text, words)
-        for text in ("this or more", "held in a point"):
+        for text in ("this or more", "held in a point", "unbounded"):
             self.assertNotIn(text, words)
 
     def test_a_pair_has_the_pressure_of_either_label(self) -> None:
@@ -85,13 +86,14 @@ class PartTest(FolderTest):
                          [[0, 0, -1, 0], [0, 0, 0, -1], [10, 4, 0, 1]])
         self.assertIn("held in a point", [text.get_text() for text in figure.legends[0].get_texts()])
 
-    def test_what_is_unbounded_has_no_number(self) -> None:
-        place = {"what": "a re-entrant corner", "at_mm": [0, 4]}
-        words = self.words(von_mises_MPa={"value": 8, "at_mm": [0, 4], "unbounded": place},
-                           largest_pressure_is="unbounded")
-        for text in ("unbounded: a re-entrant corner", "brightest: this or more", "\nunbounded\n"):
+    def test_places_where_stress_is_unbounded_are_marked_next_to_the_largest(self) -> None:
+        place = {"what": "a re-entrant corner", "at_mm": [0, 4], "within_mm": 0.3}
+        words = self.words(unbounded=[place], largest_pressure_is="unbounded")
+        for text in ("stress unbounded", "brightest: this or more", "\nunbounded\n", "largest 8 MPa"):
             self.assertIn(text, words)
-        self.assertNotIn("largest 8", words)
+        marks = [line.get_xydata().tolist() for line in part.draw(part.read_part(self.results)).axes[0].lines
+                 if line.get_marker() == "x"]
+        self.assertEqual(marks, [[[0, 4]]])
 
     def test_lattices_are_divided_into_cells(self) -> None:
         for parts in range(1, 9):

@@ -8,10 +8,12 @@
 #include "assembly/total_displacement.hpp"
 #include "bench/measure/part_answer.hpp"
 #include "bench/measure/part_picture.hpp"
+#include "bench/measure/stress_samples.hpp"
 #include "bench/report/part_table.hpp"
 #include "support/lists.hpp"
 #include "tests/bench/measure/csv_columns.hpp"
 #include "tests/bench/verify/solved.hpp"
+#include "tests/support/contains.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::part_answer_test {
@@ -126,7 +128,7 @@ TEST(PartTable, FacesHaveTheirIntervals) {
     Json part = parse_json(R"({"faces": [{"name": "contact:sole", "force_N": [0, 8], "normal_N": -8,
         "tangential_N": 1, "length_mm": 4, "closed_mm": 2, "slipping_mm": 0,
         "normal_in_N": [-8.5, -7.75]}], "supports": [], "von_mises_MPa": {"value": 1, "at_mm": [0, 0]},
-        "principal_MPa": {"value": 1, "at_mm": [0, 0]}})");
+        "principal_MPa": {"value": 1, "at_mm": [0, 0]}, "unbounded": []})");
     part["faces"][0]["pressure_MPa"] = parse_json(pressure);
     return std::get<1>(part_report(Record(), part).front()).at(1);
   };
@@ -136,6 +138,68 @@ TEST(PartTable, FacesHaveTheirIntervals) {
   EXPECT_EQ(row(R"({"value": 6, "at_mm": [1, 0], "is": "unbounded"})").at(4), "unbounded");
   EXPECT_EQ(row(R"({"value": 6, "at_mm": [1, 0], "is": "not seen"})").at(4), "6 or unbounded");
   EXPECT_EQ(row(R"({"value": 0, "at_mm": [0, 0], "is": "bounded"})").at(4), "-");
+}
+
+TEST(PartTable, NamesPlacesOfUnboundedStressByWhatTheyAre) {
+  Json part =
+      parse_json(R"({"faces": [], "supports": [], "von_mises_MPa": {"value": 7, "at_mm": [1, 2],
+      "off": 0.25}, "principal_MPa": {"value": -3, "at_mm": [0, 0]}, "unbounded": []})");
+  const auto report = [&] {
+    std::string text;
+    for (const auto& line : part_report(Record(), part))
+      if (const auto* words = std::get_if<std::string>(&line)) text += *words + "\n";
+    return text;
+  };
+  EXPECT_TRUE(testing::contains(report(),
+                                "largest von Mises stress 7 ± 0.25 MPa at (1, 2)\n"
+                                "largest principal stress -3 MPa at (0, 0)\n"));
+  EXPECT_FALSE(testing::contains(report(), "unbounded"));
+  for (int k = 0; k < 5; ++k)
+    part["unbounded"].push_back(
+        {{"what", k == 0 ? "the end of displacement:foot" : "a re-entrant corner"},
+         {"at_mm", {k, 1}},
+         {"within_mm", 0.52}});
+  EXPECT_TRUE(testing::contains(
+      report(),
+      "stress unbounded at (1, 1), (2, 1), (3, 1) and 1 more: a re-entrant corner; (0, 1): the end "
+      "of displacement:foot (largest: of what is more than 0.52 mm away)\n"));
+}
+
+// The corners of a hole and the ends of the root.
+TEST(PartAnswer, TheLargestStressIsThatAwayFromPlacesWhereItIsUnbounded) {
+  Scene scene;
+  scene.friction = 0;
+  const testing::Solved solved(scene, testing::small_plate(2), 2);
+  const SolvedFields fields{solved.system, solved.hybrid, solved.w, nullptr, nullptr, {}};
+  const PartAnswer answer =
+      part_files(fields, contact_picture(solved.system, solved.hybrid, solved.w)).answer;
+  std::map<std::string, int> places;
+  for (const SingularPlace& place : answer.unbounded) {
+    ++places[place.what];
+    EXPECT_NEAR(place.within_mm, (144. - 16) / (48 + 16) / 10, 1e-9);
+    EXPECT_GE((answer.von_mises.at_mm - place.at_mm).norm(), place.within_mm);
+  }
+  EXPECT_EQ(places["a re-entrant corner"], 4);
+  EXPECT_EQ(places["the end of displacement"], 2);
+  EXPECT_EQ(answer.unbounded.size(), 6u);
+  const StressSamples samples(*solved.system.problem, solved.hybrid.stress, 6);
+  int larger = 0;
+  double farthest = 0;
+  for (int t = 0; t < static_cast<int>(solved.hybrid.stress.size()); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const StressSamples::Third third = samples.third(t, k);
+      for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i)
+        if (von_mises(*solved.system.problem, t, third.at_mm.col(i), third.stress.col(i)) >
+            answer.von_mises.value * (1 + 1e-12)) {
+          ++larger;
+          double nearest = 1e9;
+          for (const SingularPlace& place : answer.unbounded)
+            nearest = std::min(nearest, (place.at_mm - third.at_mm.col(i)).norm());
+          farthest = std::max(farthest, nearest);
+        }
+    }
+  EXPECT_GT(larger, 0);
+  EXPECT_LT(farthest, answer.unbounded.front().within_mm);
 }
 
 }  // namespace
