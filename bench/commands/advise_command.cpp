@@ -32,7 +32,8 @@ constexpr const char* advise_footer = R"(
 The mesh is adapted until the error is met; on what it becomes, methods are measured, as far as the budget goes.
 Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, beyond that
 measurement scaled by n log n; its error by a power law, which is optimistic. Earlier records are taken to be of this machine's
-speed after it. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv,
+speed after it. On a body with curved sides also HYBRID with stresses that follow them, of the degree that
+--degree=auto takes, on a mesh adapted by it. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv,
 records, meshes, fields.
 
 Exit status  0  a measured row meets the error
@@ -107,7 +108,10 @@ std::string command_of(const Options& options, const Record& r, bool is_adapted)
     text += shell_word(file.string()) +
             " --scene=" + shell_word((file.parent_path() / (r.scene + ".json")).string());
   }
-  if (is_adapted) text += fmt::format(" --adapt={},levels=last", text_of(options.run.adapt.goals));
+  if (is_adapted) {
+    text += fmt::format(" --adapt={},levels=last", text_of(options.run.adapt.goals));
+    if (options.run.adapt.by != Adaptation().by) text += ",by=" + options.run.adapt.by;
+  }
   return text + " --method=" + shell_word(r.method);
 }
 
@@ -117,6 +121,29 @@ Advice advice_of(const Record& r, const Options& options, bool is_adapted) {
   if (!is_adapted) advice.record.adapt_time_s.reset();
   return advice;
 }
+
+// Degree 1 takes curved sides for their chords and is of order 1.5 in energy there; higher degrees
+// follow them.
+struct OfCurves {
+  Options options;
+  AdaptedScenes adapted;
+  std::vector<Case> cases;
+
+  OfCurves(const PosedScene& start, const Options& asked) : options(asked) {
+    const auto is_curved = [](const BoundaryEdge& edge) { return !edge.curve.is_straight(); };
+    if (asked.run.methods != candidates ||
+        std::ranges::none_of(start.body()->mesh.boundary, is_curved))
+      return;
+    read_degree("auto", false, options.run);
+    adapted = adapted_scenes(start, options);
+    if (!adapted.levels.empty())
+      cases = plan_cases({adapted.levels.back()}, select_methods(options.run.methods), options.run);
+  }
+  bool is_refined() const { return adapted.levels.size() > 1; }
+  bool has(const Record& record) const {
+    return !cases.empty() && record.mesh == cases.front().posed.body()->mesh.name;
+  }
+};
 
 // Refining uniformly makes four triangles and four inner edges of each triangle, two of each edge:
 //   n_φ(k) = a 4^k + b 2^k + constant.
@@ -256,13 +283,16 @@ int advise_command(int argc, const char* const* argv) {
   const PosedScene start = one_posed_scene(options);
   const std::vector<Method> chosen = select_methods(options.run.methods);
   const AdaptedScenes adapted = adapted_scenes(start, options);
-  if (!adapted.why_not_reached.empty()) std::cerr << "note: " << adapted.why_not_reached << "\n";
+  const OfCurves of_curves(start, options);
+  for (const AdaptedScenes* scenes : {&adapted, &of_curves.adapted})
+    if (!scenes->why_not_reached.empty()) std::cerr << "note: " << scenes->why_not_reached << "\n";
   if (adapted.levels.empty()) return some_case_failed;
 
   const bool is_refined = adapted.levels.size() > 1;
   set_threads(options.run.cases.threads);
   const Context context = context_of_run(options);
   std::vector<Case> compared = plan_cases({adapted.levels.back()}, chosen, options.run);
+  compared.insert(compared.end(), of_curves.cases.begin(), of_curves.cases.end());
   std::vector<Record> past =
       read_committed_records({blank_record(compared.front(), options.limits)},
                              options.output.folder)
@@ -286,7 +316,10 @@ int advise_command(int argc, const char* const* argv) {
 
   const double goal = *options.run.adapt.goals.front().error;
   std::vector<Advice> rows;
-  for (const Record& record : records) rows.push_back(advice_of(record, options, is_refined));
+  for (const Record& record : records)
+    rows.push_back(of_curves.has(record)
+                       ? advice_of(record, of_curves.options, of_curves.is_refined())
+                       : advice_of(record, options, is_refined));
   std::ranges::stable_sort(
       rows, {}, [&](const Advice& row) { return std::pair(!row.meets(goal), row.whole_time_s()); });
   const bool met = rows.front().meets(goal);

@@ -80,5 +80,19 @@ TEST_F(RoundBodiesCommand, ThatAreSaidToBePolygonsAreNoOthers) {
   }
 }
 
+// Degree 1 takes chords, so that advice compares it with stresses that follow the curves, on their
+// own mesh.
+TEST_F(RoundBodiesCommand, AreAdvisedOnWithStressesThatFollowTheirCurves) {
+  for (const auto& [scene, is_round] : {std::pair("round", true), {"edged", false}}) {
+    const std::string folder = std::string(scene) + "/advice";
+    bench_.expect_ok("advise --mesh=ring.msh --scene=" + std::string(scene) +
+                     ".json --error=0.1% --out=" + folder);
+    const std::string csv = bench_.content(folder + "/advice.csv");
+    EXPECT_EQ(csv.find("\"HYBRID:k=2\"") != std::string::npos, is_round) << csv;
+    EXPECT_EQ(csv.find(",levels=last,by=HYBRID:k=2 --method=") != std::string::npos, is_round);
+    EXPECT_NE(csv.find("\"3STEPD\""), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace airybench::round_bodies_command_test
