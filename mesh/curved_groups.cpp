@@ -6,8 +6,8 @@
 
 namespace airybench {
 
-void CurvedGroups::add(const BoundaryEdge& edge, double sagitta_mm) {
-  auto& [edges, largest_mm] = groups_[boundary_label(mesh_, edge)];
+void CurvedGroups::add(const std::string& group, double sagitta_mm) {
+  auto& [edges, largest_mm] = groups_[group];
   ++edges;
   largest_mm = std::max(largest_mm, sagitta_mm);
 }
@@ -15,8 +15,8 @@ void CurvedGroups::add(const BoundaryEdge& edge, double sagitta_mm) {
 std::string CurvedGroups::words() const {
   std::ostringstream text;
   text << std::setprecision(2);
-  for (const auto& [label, group] : groups_)
-    text << (text.tellp() > 0 ? ", " : "") << label << " (" << group.first
+  for (const auto& [name, group] : groups_)
+    text << (text.tellp() > 0 ? ", " : "") << name << " (" << group.first
          << " edges, chords off by up to " << group.second << " mm)";
   return text.str();
 }

@@ -84,11 +84,11 @@ std::vector<std::string> mend(Mesh& mesh, double mm_per_unit) {
   if (const std::size_t more = mesh.triangles.size() - triangles; more > 0)
     notes.push_back("triangles too thin for their curved edge, which were cut: " +
                     std::to_string(more));
-  CurvedGroups known(mesh), supposed(mesh);
+  CurvedGroups known, supposed;
   for (const BoundaryEdge& edge : mesh.boundary)
-    if (!edge.curve.is_straight()) known.add(edge, edge.curve.sagitta());
+    if (!edge.curve.is_straight()) known.add(boundary_label(mesh, edge), edge.curve.sagitta());
   for (const SupposedCurve& curve : supposed_curves(mesh))
-    supposed.add(mesh.boundary[curve.boundary_row], curve.sagitta_mm());
+    supposed.add(boundary_label(mesh, mesh.boundary[curve.boundary_row]), curve.sagitta_mm());
   if (!known.empty()) notes.push_back("curved sides, which refinement follows: " + known.words());
   if (!supposed.empty())
     notes.push_back(

@@ -82,6 +82,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   level.error = error.relative();
   if (!error.flaw().empty()) ended_ = "nothing can be said of the error: " + error.flaw();
   parts_ = error.parts();
+  of_chords_ = error.parts_of_chords();
   squared_ = std::accumulate(parts_.begin(), parts_.end(), 0.0);
   edges_ = problem->edges;
   if (expected_.squared > 0)
@@ -157,7 +158,7 @@ BisectedMesh AdaptiveLoop::bisected_as_expected() {
   constexpr double aim = 0.96;  // of the goal: a near miss costs one more level
   using Finer = ExpectedParts::Finer;
   const AdaptGoal& goal = settings_.goals[goal_];
-  const ExpectedParts expected(mesh_, edges_, parts_, method_.degree);
+  const ExpectedParts expected(mesh_, edges_, parts_, method_.degree, of_chords_);
   const auto triangles = static_cast<double>(mesh_.triangles.size());
   const auto& [unknowns, error] = history_.back();
   const auto with_neighbours = [&](const Finer& finer) {

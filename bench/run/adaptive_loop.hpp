@@ -78,7 +78,8 @@ class AdaptiveLoop {
   Mesh mesh_;
   Method method_;
   AdaptiveSettings settings_;
-  std::vector<double> parts_;  // of the squared error, per triangle
+  // Of the squared error, per triangle: all, and what chords in place of curves cost.
+  std::vector<double> parts_, of_chords_;
   MeshEdges edges_;
   double squared_ = 0;                // their sum
   std::optional<StressDoubt> doubt_;  // of the last load step's largest stress

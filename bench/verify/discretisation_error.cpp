@@ -246,11 +246,12 @@ ConstitutiveError error_of(const ContactSystem& system, const StressField& stres
     highest_force = std::max(highest_force, terms.highest_force);
   }
   judge_admissibility(fields, highest_gap, highest_force, error);
-  const std::vector<double> geometry = geometry_error(problem, stress);
-  for (std::size_t t = 0; t < geometry.size(); ++t) {
-    error.geometry_Nmm += geometry[t];
-    error.of_triangle_Nmm[t] += geometry[t];
+  GeometryError geometry = geometry_error(problem, stress);
+  for (std::size_t t = 0; t < geometry.of_triangle_Nmm.size(); ++t) {
+    error.geometry_Nmm += geometry.of_triangle_Nmm[t];
+    error.of_triangle_Nmm[t] += geometry.of_triangle_Nmm[t];
   }
+  error.of_chords_Nmm = std::move(geometry.of_chords_Nmm);
   note_bounds<k>(system, fields, highest_gap, error);
   // Where the mesh lets bodies miss each other, û may know better: then all is error.
   const LoadScale scale = load_scale(problem);

@@ -59,6 +59,7 @@ struct ConstitutiveError {
   // remove it. Such a σ is not admissible, so nothing is guaranteed.
   double beyond_wall_Nmm = 0;
   std::vector<double> of_triangle_Nmm;  // sum to e²; contact terms count for their triangles
+  std::vector<double> of_chords_Nmm;    // of them, η² where curves are taken as their chords
   double stress_norm = 0, displacement_norm = 0;  // ‖σ‖, ‖Aε(u)‖; √(N mm)
   double relative = 0;  // e / ‖σ‖; without stress e / ‖ε(û)‖, or relative to the loads
   double relative_of_mean = 0;  // the same for ½(σ + Aε(u))

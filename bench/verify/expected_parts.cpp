@@ -8,6 +8,8 @@ namespace {
 
 using Corners = std::array<Eigen::Vector2d, 3>;
 
+constexpr double power_of_chords = 2.5;
+
 Corners corners_of(const Mesh& mesh, int t) {
   const auto& [a, b, c] = mesh.triangles[t];
   return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
@@ -84,22 +86,32 @@ std::vector<AtVertex> look_at_vertices(const Mesh& mesh, const MeshEdges& edges,
 }  // namespace
 
 ExpectedParts::ExpectedParts(const Mesh& mesh, const MeshEdges& edges,
-                             const std::vector<double>& parts, int degree)
+                             const std::vector<double>& parts, int degree,
+                             const std::vector<double>& of_chords)
     : mesh_(mesh), power_(degree + 2) {
-  const std::vector<AtVertex> seen = look_at_vertices(mesh, edges, parts, power_);
+  std::vector<double> others = parts;
+  for (std::size_t t = 0; t < of_chords.size(); ++t) others[t] -= of_chords[t];
+  const std::vector<AtVertex> seen = look_at_vertices(mesh, edges, others, power_);
   triangles_.reserve(parts.size());
   for (int t = 0; t < static_cast<int>(parts.size()); ++t) {
     const Corners x = corners_of(mesh, t);
     const int v = *std::ranges::max_element(mesh.triangles[t], {},
                                             [&](int corner) { return seen[corner].kappa; });
-    triangles_.push_back({std::max(0.0, parts[t]) / std::pow(area_of(x), power_), area_of(x),
+    const double chords = of_chords.empty() ? 0 : of_chords[t];
+    triangles_.push_back({std::max(0.0, others[t]) / std::pow(area_of(x), power_),
+                          chords / std::pow(area_of(x), power_of_chords), area_of(x),
                           seen[v].exponent, mesh.vertices[v],
                           (centroid_of(x) - mesh.vertices[v]).norm()});
   }
 }
 
+double ExpectedParts::of_smooth(const Triangle& triangle, double area) const {
+  return triangle.kappa * std::pow(area, power_) +
+         triangle.of_chords * std::pow(area, power_of_chords);
+}
+
 double ExpectedParts::of(const Triangle& triangle, const Corners& corners) const {
-  const double area = area_of(corners), smooth = triangle.kappa * std::pow(area, power_);
+  const double area = area_of(corners), smooth = of_smooth(triangle, area);
   if (triangle.exponent == 0) return smooth;
   const double nearer = (centroid_of(corners) - triangle.vertex).norm() / triangle.distance_mm;
   return smooth *
@@ -115,13 +127,14 @@ ExpectedParts::Finer ExpectedParts::cut_until(
   struct Parts {  // equal parts of one triangle
     double part, count;
     int triangle;
+    double area_mm2;
     Corners corners;  // of one part; if smooth, of the whole triangle
   };
   std::vector<Parts> heap;  // largest first
   Finer finer;
   for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
     const Corners x = corners_of(mesh_, t);
-    heap.push_back({of(triangles_[t], x), 1, t, x});
+    heap.push_back({of(triangles_[t], x), 1, t, area_of(x), x});
     finer.squared += heap.back().part;
   }
   finer.triangles = static_cast<double>(heap.size());
@@ -138,11 +151,13 @@ ExpectedParts::Finer ExpectedParts::cut_until(
     finer.squared -= cut.count * cut.part;
     finer.triangles += cut.count;
     if (triangles_[cut.triangle].exponent == 0) {
-      push({std::ldexp(cut.part, -power_), 2 * cut.count, cut.triangle, cut.corners});
+      const double half = cut.area_mm2 / 2;
+      push({of_smooth(triangles_[cut.triangle], half), 2 * cut.count, cut.triangle, half,
+            cut.corners});
       continue;
     }
     for (const Corners& half : halves(cut.corners))
-      push({of(triangles_[cut.triangle], half), 1, cut.triangle, half});
+      push({of(triangles_[cut.triangle], half), 1, cut.triangle, area_of(half), half});
   }
   return finer;
 }

@@ -14,6 +14,10 @@
 // 0.7 for all (corners have 0.5 … 0.8). At ends of contact inside Γ_C λ = 3/2, but the ends move,
 // so they wait for the next mesh.
 //
+// Chords of length h in place of a curve have η_T² ~ h⁴ (geometry_error.hpp) on the triangles along
+// it. Of four parts of T with sides of h/2 two have a sixteenth each: on average its 2^−(5/2) per
+// half, so η_T² ~ A^(5/2).
+//
 // Of all meshes with a given number of triangles the one with equal parts has the least error (e² ~
 // Σ κ A^(k+2) for given Σ 1; bulk marking leads there too). So triangles are cut until no expected
 // part exceeds a common threshold.
@@ -29,10 +33,10 @@ namespace airybench {
 
 class ExpectedParts {
  public:
-  // parts: of e², per triangle; negative ones count as zero.
-  // degree: k.
+  // parts: of e², per triangle; negative ones count as zero. degree: k. of_chords: η_T² in them;
+  // empty: there is none.
   ExpectedParts(const Mesh& mesh, const MeshEdges& edges, const std::vector<double>& parts,
-                int degree = 1);
+                int degree = 1, const std::vector<double>& of_chords = {});
 
   double of(const TrianglePart& part) const;
 
@@ -46,12 +50,14 @@ class ExpectedParts {
  private:
   struct Triangle {
     double kappa = 0;        // e_T² / A^(k+2)
+    double of_chords = 0;    // η_T² / A^(5/2)
     double area_mm2 = 0;     // A
     double exponent = 0;     // s; 0: the stress is smooth
     Eigen::Vector2d vertex;  // v
     double distance_mm = 1;  // |x_T − v|
   };
   double of(const Triangle& triangle, const std::array<Eigen::Vector2d, 3>& corners) const;
+  double of_smooth(const Triangle& triangle, double area) const;
 
   const Mesh& mesh_;
   int power_;  // of A: k + 2

@@ -9,10 +9,13 @@
 #include "assembly/elements/edge_forces.hpp"
 #include "mesh/boundary_sides.hpp"
 #include "mesh/curved_groups.hpp"
+#include "mesh/interfaces.hpp"
 #include "mesh/supposed_curves.hpp"
 
 namespace airybench {
 namespace {
+
+constexpr double of_loaded = 1.5, of_held = 0.3;  // c
 
 // What an edge stands for.
 struct TrueSide {
@@ -33,20 +36,23 @@ Eigen::Vector2d change_across(const Eigen::Vector3d& strain, const EdgeFrame& ed
   return {edge.normal.dot(of_normal), 2 * edge.tangent.dot(of_normal)};
 }
 
+std::vector<Eigen::Vector3d> stresses_along(const StressField& stress, const TriangleSide& side) {
+  std::vector<Eigen::Vector3d> along;
+  for (int j = 0; j <= stress.degree(); ++j)
+    along.emplace_back(stress[static_cast<std::size_t>(side.triangle)].col(
+        side.k * bernstein_count(stress.degree()) + j));
+  return along;
+}
+
 // Of the side k of a triangle, a row of Mesh::boundary.
 double squared_error(const Problem& problem, const StressField& stress, int triangle, int k,
                      int row, const TrueSide& side) {
-  constexpr double of_loaded = 1.5, of_held = 0.3;
   using Points = boost::math::quadrature::gauss<double, 2 * highest_stress_degree + 2>;
   const BoundaryEdge& edge = problem.mesh.boundary[row];
   const Eigen::Vector2d &a = problem.mesh.vertices[edge.vertices[0]],
                         &b = problem.mesh.vertices[edge.vertices[1]];
   const EdgeFrame chord = edge_frame(a, b);
-  const int degree = stress.degree();
-  std::vector<Eigen::Vector3d> along;
-  for (int j = 0; j <= degree; ++j)
-    along.emplace_back(
-        stress[static_cast<std::size_t>(triangle)].col(k * bernstein_count(degree) + j));
+  const std::vector<Eigen::Vector3d> along = stresses_along(stress, {triangle, k});
   const Eigen::Matrix3d& compliance = problem.compliance_of(triangle);
   const bool is_held = edge.role == BoundaryRole::displacement && !problem.is_roller(row);
   const auto density = [&](double s) {  // |r|²/E
@@ -66,6 +72,34 @@ double squared_error(const Problem& problem, const StressField& stress, int tria
   const double side_mm = side.supposed ? side.supposed->side_mm : chord.length_mm;
   return (is_held ? of_held : of_loaded) * side_mm * chord.length_mm *
          Points::integrate(density, 0., 1.);
+}
+
+// Of an edge between two materials: the softer one's.
+double squared_error_between(const Problem& problem, const StressField& stress,
+                             const std::array<TriangleSide, 2>& sides, const SupposedCurve& curve) {
+  using Points = boost::math::quadrature::gauss<double, 2 * highest_stress_degree + 2>;
+  const auto [t, k] = sides[0];
+  const TriangleVertices v = problem.vertices_of(t);
+  const EdgeFrame chord = edge_frame(v.col(k), v.col((k + 1) % 3));
+  const TrueSide line{nullptr, curve};
+  const std::vector<Eigen::Vector3d> own = stresses_along(stress, sides[0]),
+                                     other = stresses_along(stress, sides[1]);
+  const auto squared = [&](double s) {
+    const Eigen::Vector3d jump = bernstein_value(own, s) - bernstein_value(other, 1 - s);
+    return traction(jump, line.normal_at(s, chord) - chord.normal).squaredNorm();
+  };
+  const double compliance =
+      std::max(problem.compliance_of(t)(0, 0), problem.compliance_of(sides[1].triangle)(0, 0));
+  return of_loaded * curve.side_mm * chord.length_mm * compliance *
+         Points::integrate(squared, 0., 1.);
+}
+
+std::vector<Interface> interfaces_of_materials(const Problem& problem) {
+  std::vector<Interface> found = interfaces(problem.mesh, problem.edges);
+  std::erase_if(found, [&](const Interface& one) {
+    return problem.compliance[one.bodies[0]] == problem.compliance[one.bodies[1]];
+  });
+  return found;
 }
 
 // The largest of the triangle's 1/sin³ of an angle: its smallest one's.
@@ -111,13 +145,14 @@ double squared_error_on_curve(const Problem& problem, const StressField& stress,
 
 }  // namespace
 
-std::vector<double> geometry_error(const Problem& problem, const StressField& stress) {
-  std::vector<double> squared(stress.size(), 0);
+GeometryError geometry_error(const Problem& problem, const StressField& stress) {
+  GeometryError error = {std::vector<double>(stress.size(), 0),
+                         std::vector<double>(stress.size(), 0)};
   if (stress.degree() > 1)
     for (const Problem::RoundTriangle& round : problem.round)
       for (int k = 0; k < 3; ++k)
         if (round.rows[k] != Problem::no_row)
-          squared[round.triangle] +=
+          error.of_triangle_Nmm[round.triangle] +=
               squared_error_on_curve(problem, stress, round.triangle, k, round.rows[k]);
   const auto& boundary = problem.mesh.boundary;
   std::vector<TrueSide> side(boundary.size());
@@ -128,21 +163,37 @@ std::vector<double> geometry_error(const Problem& problem, const StressField& st
   for (const SupposedCurve& curve : supposed_curves(problem.mesh))
     side[static_cast<std::size_t>(curve.boundary_row)].supposed = curve;
   const std::vector<TriangleSide> sides = boundary_sides(problem.edges);
-  for (std::size_t row = 0; row < boundary.size(); ++row)
-    if (const auto [t, k] = sides[row]; !side[row].is_edge())
-      squared[t] += squared_error(problem, stress, t, k, static_cast<int>(row), side[row]);
-  return squared;
+  for (std::size_t row = 0; row < boundary.size(); ++row) {
+    if (side[row].is_edge()) continue;
+    const auto [t, k] = sides[row];
+    const double squared = squared_error(problem, stress, t, k, static_cast<int>(row), side[row]);
+    error.of_triangle_Nmm[t] += squared;
+    if (side[row].curve) error.of_chords_Nmm[t] += squared;
+  }
+  for (const Interface& interface : interfaces_of_materials(problem))
+    for (const SupposedCurve& curve : supposed_curves(interface.line)) {
+      const std::array<TriangleSide, 2>& of_edge =
+          interface.sides[static_cast<std::size_t>(curve.boundary_row)];
+      const double squared = squared_error_between(problem, stress, of_edge, curve);
+      for (const TriangleSide& own : of_edge) error.of_triangle_Nmm[own.triangle] += squared / 2;
+    }
+  return error;
 }
 
 std::string polygon_groups(const Problem& problem, int degree) {
   const Mesh& mesh = problem.mesh;
-  CurvedGroups groups(mesh);
+  CurvedGroups groups;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
     if (const BoundaryEdge& edge = mesh.boundary[row];
         !edge.curve.is_straight() && !problem.follows_curve(row, degree))
-      groups.add(edge, edge.curve.sagitta());
+      groups.add(boundary_label(mesh, edge), edge.curve.sagitta());
   for (const SupposedCurve& curve : supposed_curves(mesh))
-    groups.add(mesh.boundary[curve.boundary_row], curve.sagitta_mm());
+    groups.add(boundary_label(mesh, mesh.boundary[curve.boundary_row]), curve.sagitta_mm());
+  for (const Interface& interface : interfaces_of_materials(problem))
+    for (const SupposedCurve& curve : supposed_curves(interface.line))
+      groups.add("between " + mesh.body_names[interface.bodies[0]] + " and " +
+                     mesh.body_names[interface.bodies[1]],
+                 curve.sagitta_mm());
   return groups.words();
 }
 

@@ -15,6 +15,9 @@
 // of degrees 1 to 3, 0.08 to 0.16 on held circles; it is not proven. Where the mesh does not know
 // its curves, they are supposed (supposed_curves.hpp); h is then the whole side, however it is cut.
 //
+// Where a line between two materials looks like a curve, r = −(σ₁ − σ₂)(n − n_chord), E of the
+// softer one; neither meshes nor stresses know curves inside a body.
+//
 // Stresses of degree k ≥ 2 follow curved edges (curved_element.hpp). Their tractions match the
 // loads there, or those of the contact law, in moments only, so what is left has no resultant on
 // any edge, and
@@ -31,11 +34,16 @@
 
 namespace airybench {
 
-// η² per triangle, N mm; all zero where no side is curved.
-std::vector<double> geometry_error(const Problem& problem, const StressField& stress);
+// η² per triangle, N mm; all zero where no side is curved. of_chords: of it, where a side's own
+// curve is taken as its chord.
+struct GeometryError {
+  std::vector<double> of_triangle_Nmm, of_chords_Nmm;
+};
+GeometryError geometry_error(const Problem& problem, const StressField& stress);
 
-// The groups with curved sides that stresses of a degree take as chords (displacements: those of
-// degree 1), and how far these are off (curved_groups.hpp); empty: there are none.
+// The groups, and the lines between materials, with curved sides that stresses of a degree take as
+// chords (displacements: those of degree 1), and how far these are off (curved_groups.hpp); empty:
+// there are none.
 std::string polygon_groups(const Problem& problem, int degree);
 
 }  // namespace airybench

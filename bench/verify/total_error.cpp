@@ -17,9 +17,12 @@ void TotalError::add(const ConstitutiveError& error, const std::string& step, Of
   largest_norm_ = std::max(largest_norm_, norm);
   sliding_.include(error.sliding);
   parts_.resize(error.of_triangle_Nmm.size());
+  of_chords_.resize(parts_.size());
   if (!(squared > 0) || is_unloaded(steps() - 1)) return;
   const double scale = error.relative * error.relative / squared;
   for (std::size_t t = 0; t < parts_.size(); ++t) parts_[t] += scale * error.of_triangle_Nmm[t];
+  for (std::size_t t = 0; t < error.of_chords_Nmm.size(); ++t)
+    of_chords_[t] += scale * error.of_chords_Nmm[t];
 }
 
 bool TotalError::is_unloaded(int step) const {

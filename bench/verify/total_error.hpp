@@ -42,6 +42,8 @@ class TotalError {
 
   // Per triangle Σ e_T² / ‖σ‖² over the steps, what refinement is to lower.
   const std::vector<double>& parts() const { return parts_; }
+  // Of these, what is due to chords in place of curves.
+  const std::vector<double>& parts_of_chords() const { return of_chords_; }
 
  private:
   struct Step {
@@ -54,7 +56,7 @@ class TotalError {
 
   std::vector<Step> of_step_;
   std::vector<double> of_method_;
-  std::vector<double> parts_;
+  std::vector<double> parts_, of_chords_;
   double largest_norm_ = 0;
   std::string flaw_;
   Sliding sliding_;

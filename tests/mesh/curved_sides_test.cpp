@@ -7,6 +7,7 @@
 
 #include "mesh/arcs.hpp"
 #include "mesh/bisection.hpp"
+#include "mesh/interfaces.hpp"
 #include "mesh/mend.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
@@ -332,6 +333,38 @@ TEST(SupposedCurves, ArePolygonsThatBendEvenly) {
   EXPECT_TRUE(supposed_curves(ring()).empty());  // known
   EXPECT_TRUE(supposed_curves(small_block(6, 6, 30)).empty());
   EXPECT_TRUE(supposed_curves(small_ring(8, 2, 1, 3)).empty());  // 45° each
+}
+
+TEST(Interfaces, HaveTheFirstBodyOnTheirLeftAndNoBranches) {
+  Mesh mesh = small_block(6, 6, 0);
+  const auto centroid = [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    return Point((mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3);
+  };
+  EXPECT_TRUE(interfaces(mesh, number_edges(mesh)).empty());
+  mesh.body_names = {"below", "above"};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    mesh.triangle_body[t] = centroid(t).y() < 5 ? 0 : 1;
+  const std::vector<Interface> found = interfaces(mesh, number_edges(mesh));
+  ASSERT_EQ(found.size(), 1U);
+  ASSERT_EQ(found[0].sides.size(), 6U);
+  ASSERT_EQ(found[0].line.boundary.size(), 6U);
+  EXPECT_EQ(found[0].line.vertices.size(), 7U);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [a, b] = found[0].line.boundary[k].vertices;
+    const auto& [first, second] = found[0].sides[k];
+    EXPECT_EQ(mesh.triangle_body[first.triangle], 0);
+    EXPECT_EQ(mesh.triangle_body[second.triangle], 1);
+    EXPECT_GT(cross_area(found[0].line.vertices[a], found[0].line.vertices[b],
+                         centroid(static_cast<std::size_t>(first.triangle))),
+              0);
+  }
+  // Four quarters, two and two alike: their lines cross in the middle.
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    mesh.triangle_body[t] = (centroid(t).x() < 5) == (centroid(t).y() < 5) ? 0 : 1;
+  const std::vector<Interface> crossing = interfaces(mesh, number_edges(mesh));
+  ASSERT_EQ(crossing.size(), 1U);
+  EXPECT_EQ(crossing[0].sides.size(), 8U);
 }
 
 TEST(SupposedCurves, KnowTheirSidesWhenTheseAreCut) {

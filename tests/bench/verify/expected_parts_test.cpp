@@ -54,6 +54,26 @@ TEST(ExpectedParts, OfASmoothStressAHalfHasAnEighth) {
   }
 }
 
+// Chords along one side of the block: no vertex is taken for a singular one, and a half has 2^−2.5.
+TEST(ExpectedParts, OfChordsAHalfHasMoreThanOfStresses) {
+  const Mesh mesh = testing::small_block(6, 6, 3);
+  std::vector<double> parts = parts_of(mesh, 0, {0, 0}), chords(parts.size(), 0);
+  for (int t = 0; t < static_cast<int>(parts.size()); ++t)
+    if (corners_of(mesh, t)[0].x() < 1) parts[t] += chords[t] = 100 * parts[t];
+  const ExpectedParts expected(mesh, number_edges(mesh), parts, 1, chords);
+  int along = 0;
+  for (int t = 0; t < static_cast<int>(parts.size()); ++t) {
+    along += chords[t] > 0 ? 1 : 0;
+    const double of_half = (parts[t] - chords[t]) / 8 + chords[t] / std::pow(2, 2.5);
+    for (const auto& half : halves(corners_of(mesh, t)))
+      EXPECT_NEAR(expected.of({t, 1, half}), of_half, 1e-12 * parts[t]);
+  }
+  EXPECT_GT(along, 0);
+  const auto finer = expected.cut_until(
+      [&](const ExpectedParts::Finer& now) { return now.squared <= sum(parts) / 100; });
+  EXPECT_GT(finer.triangles, 0.95 * std::pow(100, 1 / 1.5) * along);  // η² ~ N^−1.5
+}
+
 // A triangle at the vertex; the law holds for all of its parts.
 TEST(ExpectedParts, AtASingularVertexTheLawOfTheStressIsFound) {
   const Mesh mesh = testing::small_block(8, 8, 0);
