@@ -117,7 +117,8 @@ def draw_stress(axes: Axes, s: Fields, chosen: np.ndarray, scales: Scales) -> No
     if not chosen.any():
         return
     parts = int(np.clip(np.sqrt(6e4 / (3 * chosen.sum())), 2, 8))
-    xy, stress = (cut(values[chosen].reshape(-1, *values.shape[2:]), parts) for values in (s.placed(s.points), s.stress))
+    xy, stress = (cut(values[chosen].reshape(-1, *values.shape[2:]), parts)
+                  for values in (s.placed(s.points), s.stress))
     tau, xy = largest_shear(stress).ravel(), xy.reshape(-1, 2)
     mesh = Triangulation(*xy.T, np.arange(len(xy)).reshape(-1, 3))
     axes.tripcolor(mesh, tau, shading="gouraud", cmap=COLORMAP, norm=scales.shear, rasterized=True)

@@ -123,9 +123,10 @@ class CurvedBodyTest(FolderTest):
 
     def test_cells_that_are_not_the_solution_s_are_refused(self) -> None:
         text = self.vtu.read_text()
+        other = f"other triangles than in {NAME}.stress.csv"
         for wrong, words in ((text[:500], "not as bench --fields writes it"),
                              (text.replace('NumberOfCells="3"', 'NumberOfCells="4"'), "not as bench"),
-                             (text.replace('NumberOfCells="3"', 'NumberOfCells="6"'), f"other triangles than in {NAME}.stress.csv")):
+                             (text.replace('NumberOfCells="3"', 'NumberOfCells="6"'), other)):
             self.vtu.write_text(wrong)
             self.assert_refused(str(self.vtu), words)
 
