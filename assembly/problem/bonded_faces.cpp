@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "assembly/problem/face_matching.hpp"
+#include "assembly/problem/contact_pairs.hpp"
 #include "mesh/transform_error.hpp"
 
 namespace airybench {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "assembly/elements/edge_forces.hpp"
-#include "assembly/problem/face_matching.hpp"
+#include "assembly/problem/contact_pairs.hpp"
 #include "mesh/transform_error.hpp"
 
 namespace airybench {

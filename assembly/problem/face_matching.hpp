@@ -36,10 +36,6 @@ void check_face(const Mesh& mesh, int row, const std::string& label, const Wall&
                 double allowed_mm);
 inline constexpr double max_of_face = 0.05;  // of the mesh's size
 
-// The group of contact edges that meet nothing, and are free.
-inline constexpr std::string_view out_of_reach = "out of reach";
-void free_unmet_edges(Mesh& mesh, const ContactPair& pair, const std::vector<bool>& is_met);
-
 struct FaceMatching {
   std::map<int, int> twin;  // per vertex of the first face, the vertex of the second that it faces
   std::array<std::map<int, Eigen::Vector2d>, 2> normal;  // per face and vertex
@@ -50,19 +46,9 @@ struct FaceMatching {
 // A vertex nearer to one of the other face than this share of the shorter edge at either is moved.
 inline constexpr double snapping = 0.15;
 
-// Throws TransformError: a label that is no contact group, or given twice.
-void check_labels(const Mesh& mesh, const std::vector<ContactPair>& pairs);
-// "contacts: contact:a and contact:b", for messages.
-std::string place_of(const ContactPair& pair);
-
 // Puts the vertices of each face into the other, or moves those that nearly match. Vertices farther
 // apart than the mesh's diagonal do not face each other. Throws TransformError: a place is met
 // twice, and the mesh of no use.
 FaceMatching match_faces(Mesh& mesh, const ContactPair& pair, const Scene& scene);
-
-// Rows of Mesh::boundary: an edge of the first face and the one of the second that it faces, once
-// they match. Throws TransformError if there are none.
-std::vector<std::array<int, 2>> facing_edges(const Mesh& mesh, const ContactPair& pair,
-                                             const FaceMatching& matching);
 
 }  // namespace airybench

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "assembly/problem/face_matching.hpp"
+#include "assembly/problem/contact_pairs.hpp"
 #include "mesh/transform_error.hpp"
 #include "support/lists.hpp"
 

@@ -41,8 +41,7 @@ struct MatchedFaces {
 
 // Takes a valid mesh. Throws TransformError, "contacts: …": a label that is no contact group, or
 // given twice; faces that do not face each other, that meet a place twice, or that overlap by more
-// than a tenth of the mesh's size in a load step; a curve farther from its edges than 5 % of it; a
-// pair on one piece of the mesh; a vertex in two pairs, or in one and at a wall.
+// than a tenth of the mesh's size in a load step; a curve farther from its edges than 5 % of it.
 MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene);
 
 }  // namespace airybench

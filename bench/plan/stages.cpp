@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "assembly/control_points.hpp"
-#include "assembly/problem/face_matching.hpp"
+#include "assembly/problem/contact_pairs.hpp"
 
 namespace airybench {
 
