@@ -77,7 +77,7 @@ ContactPoints contact_points(const Problem& problem, int degree) {
   if (!problem.opposite.empty()) pair_points(problem, contact);
   contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
   add_free_bodies(
-      problem,
+      problem, degree,
       [&](const RigidMotion& motion, int p) {
         return with_degree(degree, [&](auto k) -> Eigen::Vector2d {
           return moment_in_frame<k>(problem, contact.boundary[p], p % contact.per_edge, motion);

@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 
+#include "assembly/curved_traces.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/free_bodies.hpp"
+#include "assembly/nodal_forces.hpp"
 #include "assembly/rigid_contact.hpp"
 
 namespace airybench {
@@ -14,8 +16,9 @@ namespace {
 
 // Where one node of a pair is prescribed, the other presses on it as on a wall that moves.
 template <int p>
-void pair_points(const Problem& problem, const PrescribedDisplacement& prescribed,
-                 ControlPoints& points, std::vector<ContactOffset>& offset) {
+void pair_points(const Problem& problem, const CurvedTraces& traces,
+                 const PrescribedDisplacement& prescribed, ControlPoints& points,
+                 std::vector<ContactOffset>& offset) {
   std::map<int, int> point_of_node;
   for (int i = 0; i < points.law.count; ++i) point_of_node[points.node[i]] = i;
   points.law.opposite.assign(static_cast<std::size_t>(points.law.count), ContactPoints::no_point);
@@ -25,7 +28,7 @@ void pair_points(const Problem& problem, const PrescribedDisplacement& prescribe
     if (other == Problem::no_row) continue;
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row),
                                  others = boundary_nodes<p>(problem, other);
-    const std::array<ContactOffset, p + 1> of_others = offset_coefficients<p>(problem, other);
+    const std::array<ContactOffset, p + 1> of_others = traces.offsets<p>(other);
     for (int k = 0; k <= p; ++k) {
       const int across = others[p - k];
       const ContactOffset& beyond = of_others[p - k];
@@ -44,14 +47,14 @@ void pair_points(const Problem& problem, const PrescribedDisplacement& prescribe
   }
 }
 
+// A motion of the body as a node's d (curved_traces.hpp).
 template <int p>
-Eigen::Vector2d place_of_node(const Problem& problem, const ControlPoints& points, int point) {
+Eigen::Vector2d motion_of_node(const Problem& problem, const CurvedTraces& traces,
+                               const ControlPoints& points, const RigidMotion& motion, int point) {
   const int row = points.law.boundary[point];
   const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
   const auto i = std::ranges::find(nodes, points.node[point]) - nodes.begin();
-  const auto [start, end] = problem.mesh.boundary[row].vertices;
-  const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
-  return a + static_cast<double>(i) / p * (b - a);
+  return traces.traces_on(row, [&](const Eigen::Vector2d& x) { return motion.at(x); }).col(i);
 }
 
 // Of a node that moves along `free` only, from u = held on: how far to the wall, and minus the slip
@@ -80,6 +83,7 @@ ControlPoints control_points(const Problem& problem) {
   const Mesh& mesh = problem.mesh;
   std::vector<double> friction;
   std::vector<ContactOffset> offset;
+  const CurvedTraces traces(problem, p);
   std::optional<PrescribedDisplacement> prescribed;
   std::map<int, int> point_of_node;
   const auto add = [&](int node, const Eigen::Vector2d& normal, bool on_roller, int row,
@@ -93,12 +97,12 @@ ControlPoints control_points(const Problem& problem) {
   };
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
-    if (!prescribed) prescribed = prescribed_displacement(problem, p);
+    if (!prescribed) prescribed = traces.prescribed();
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
-    const std::array<ContactOffset, p + 1> offsets = offset_coefficients<p>(problem, row);
+    const std::array<ContactOffset, p + 1> offsets = traces.offsets<p>(row);
     for (int k = 0; k <= p; ++k) {
       if (prescribed->at[nodes[k]] || is_tip(problem, row, nodes[k])) continue;
-      const EdgeFrame frame = frame_of_coefficient<p>(problem, row, k);
+      const EdgeFrame frame = traces.frame(row, k);
       const Eigen::Vector2d& normal = frame.normal;
       if (const auto roller = prescribed->normal.find(nodes[k]);
           roller != prescribed->normal.end()) {
@@ -124,7 +128,7 @@ ControlPoints control_points(const Problem& problem) {
     }
   }
   points.law.count = static_cast<int>(points.node.size());
-  if (!problem.opposite.empty()) pair_points<p>(problem, *prescribed, points, offset);
+  if (!problem.opposite.empty()) pair_points<p>(problem, traces, *prescribed, points, offset);
   if (points.law.components == 2) points.law.friction = std::move(friction);
   if (problem.has_gap() || std::ranges::any_of(offset, [](const ContactOffset& own) {
         return own.gap_mm != 0 || own.slid_mm != 0;
@@ -135,9 +139,9 @@ ControlPoints control_points(const Problem& problem) {
       points.law.gap.segment(m * i, m) = offset[i].along(points.normal[i]).head(m);
   }
   add_free_bodies(
-      problem,
+      problem, p,
       [&](const RigidMotion& motion, int i) -> Eigen::Vector2d {
-        return points.frame(i).transpose() * motion.at(place_of_node<p>(problem, points, i));
+        return points.frame(i).transpose() * motion_of_node<p>(problem, traces, points, motion, i);
       },
       points.law);
   return points;
@@ -166,13 +170,13 @@ std::string why_no_control_points(const Problem& problem) {
   return "";
 }
 
-Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementField& u) {
+Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementField& d) {
   const int m = points.law.components;
   Eigen::VectorXd of_points(points.law.size());
   for (int p = 0; p < points.law.count; ++p)
     for (int k = 0; k < m; ++k)
       of_points(m * p + k) =
-          k == 1 && points.on_roller[p] ? 0 : points.frame(p).col(k).dot(u.col(points.node[p]));
+          k == 1 && points.on_roller[p] ? 0 : points.frame(p).col(k).dot(d.col(points.node[p]));
   return of_points;
 }
 
@@ -193,9 +197,11 @@ double friction_on_roller(const ControlPoints& points, const Eigen::VectorXd& F,
 }  // namespace
 
 Eigen::VectorXd contact_reactions(const Problem& problem, const ControlPoints& points,
-                                  const StressField& stress) {
+                                  const DisplacementField& w) {
+  const int degree = displacement_degree(problem, w);
   const Eigen::Matrix2Xd force =
-      nodal_forces(problem, stress).sum - nodal_loads(problem, stress.degree() + 1);
+      CurvedTraces(problem, degree)
+          .forces(nodal_forces(problem, w).sum - nodal_loads(problem, degree));
   const int m = points.law.components;
   Eigen::VectorXd F(points.law.size());
   for (int p = 0; p < points.law.count; ++p) {

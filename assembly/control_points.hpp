@@ -3,7 +3,9 @@
 //
 // At each, r = u − g0 n in Bernstein coefficients and its work partner F = ∫ t B ds follow the
 // contact law (contact_problem.hpp). If the coefficients satisfy r_n ≤ 0, so does the polynomial
-// on its edge, and B ≥ 0: u_n ≤ g0 holds at every point of Γ_C.
+// on its edge, and B ≥ 0: u_n ≤ g0 holds at every point of Γ_C. On curved sides u is its
+// interpolant along the curve, in the law's frames there, and its coefficients are traces
+// (curved_traces.hpp).
 //
 // A vertex between two contact edges has one normal, their mean. Then u_n ≤ g0 is no longer strict
 // on a face that is not straight. A vertex on Γ_D is prescribed and has no law. Where a roller of
@@ -41,12 +43,12 @@ ControlPoints control_points(const Problem& problem, int degree = 2);
 // Empty for such a problem.
 std::string why_no_control_points(const Problem& problem);
 
-// u at them, in the rows of their forces; along a roller 0.
-Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementField& u);
+// u at them, from its traces d, in the rows of their forces; along a roller 0.
+Eigen::VectorXd displacement_at(const ControlPoints& points, const DisplacementField& d);
 
-// Contact forces of displacements at their control points: nodal forces of their stresses, of one
-// degree less, without the loads, N. Per point normal, tangential (μ = 0: normal).
+// Contact forces of displacements at their control points: nodal forces of their stresses without
+// the loads, N. Per point normal, tangential (μ = 0: normal).
 Eigen::VectorXd contact_reactions(const Problem& problem, const ControlPoints& points,
-                                  const StressField& stress);
+                                  const DisplacementField& w);
 
 }  // namespace airybench

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "assembly/elements/curved_side.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/elements/small_cholesky.hpp"
-#include "assembly/traction_forces.hpp"
 
 namespace airybench {
 namespace {
@@ -43,6 +41,21 @@ void hold_along(const Eigen::Vector2d& n, double d, int node, PrescribedDisplace
   prescribed.u.col(node) << (c * n.y() - d * m.y()) / sine, (d * m.x() - c * n.x()) / sine;
   prescribed.at[node] = true;
   prescribed.normal.erase(other);
+}
+
+}  // namespace
+
+namespace {
+
+// Of B_α of degree d in B_β of degree d + 1: β_i/(d + 1) where β = α + e_i.
+double elevation(const std::array<int, 3>& alpha, const std::array<int, 3>& beta) {
+  int raised = -1, sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (beta[i] < alpha[i]) return 0;
+    if (beta[i] > alpha[i]) raised = i;
+    sum += beta[i];
+  }
+  return static_cast<double>(beta[raised]) / sum;
 }
 
 }  // namespace
@@ -184,6 +197,25 @@ double thermal_work(const Problem& problem, const StressField& stress) {
   return work;
 }
 
+DisplacementField elevated(const Problem& problem, const DisplacementField& u, int degree) {
+  const int p = displacement_degree(problem, u);
+  if (p >= degree) return u;
+  const auto &lower = DisplacementTriangle::of_degree(p),
+             &higher = DisplacementTriangle::of_degree(p + 1);
+  DisplacementField result(2, displacement_nodes(problem, p + 1));
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const auto own = of_triangle(problem, p, u, t);
+    const auto nodes = triangle_nodes(problem, p + 1, t);
+    for (int m = 0; m < higher.nodes; ++m) {
+      Eigen::Vector2d value = Eigen::Vector2d::Zero();
+      for (int l = 0; l < lower.nodes; ++l)
+        value += elevation(lower.exponents[l], higher.exponents[m]) * own.col(l);
+      result.col(nodes[m]) = value;
+    }
+  }
+  return elevated(problem, result, degree);
+}
+
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {
   StressField field = stress_of_strain(problem, u);
   add_thermal_stress(problem, -1, field);
@@ -204,58 +236,12 @@ StressField stress_of_strain(const Problem& problem, const DisplacementField& u)
   return field;
 }
 
-NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
-  const int p = stress.degree() + 1;
-  const auto& element = DisplacementTriangle::of_degree(p);
-  const int n = element.strains;
-  Eigen::MatrixXd integral(3 * n, n);  // 3 ∫ σ B per area, from coefficients by thirds
-  for (int t = 0; t < 3; ++t)
-    integral.middleRows(n * t, n) =
-        element.mass.lazyProduct(element.on_thirds.middleCols(n * t, n).transpose());
-  NodalForces forces{Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem, p))};
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const TriangleShape shape(problem.vertices_of(t));
-    DisplacementTriangle::Strain dual = stress[t].lazyProduct(integral);
-    dual *= shape.area_mm2 / 3;
-    const DisplacementTriangle::Displacement force = element.forces(shape.gradients, dual);
-    forces.largest = std::max(forces.largest, force.cwiseAbs().maxCoeff());
-    const auto nodes = triangle_nodes(problem, p, t);
-    for (int m = 0; m < element.nodes; ++m) forces.sum.col(nodes[m]) += force.col(m);
-  }
-  return forces;
-}
-
-Eigen::Matrix2Xd thermal_forces(const Problem& problem, int degree) {
-  StressField thermal(problem.mesh.triangles.size(), degree - 1);
-  thermal.values().setZero();
-  add_thermal_stress(problem, 1, thermal);
-  return nodal_forces(problem, thermal).sum;
-}
-
-Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {
-  return with_degree(degree - 1, [&](auto k) {
-    constexpr int p = k + 1;
-    const Mesh& mesh = problem.mesh;
-    const Loads& loads = problem.loads;
-    Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem, p));
-    if (loads.has_body_force())
-      for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-        for (const int node : triangle_nodes(problem, p, t))
-          force.col(node) += problem.area_mm2(t) / bernstein_count(p) * loads.body_force_N_per_mm3;
-    if (!loads.traction_MPa) return force;
-    for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
-      if (mesh.boundary[row].role != BoundaryRole::force) continue;
-      const auto [start, end] = mesh.boundary[row].vertices;
-      const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
-      const EdgeFrame frame = edge_frame(a, b);
-      const Eigen::Vector2d at_a = frame.length_mm / 2 * loads.traction_MPa(a, frame.normal, row),
-                            at_b = frame.length_mm / 2 * loads.traction_MPa(b, frame.normal, row);
-      const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
-      for (int i = 0; i <= p; ++i)
-        force.col(nodes[i]) += edge_moment(1, 0, p, i) * at_a + edge_moment(1, 1, p, i) * at_b;
-    }
-    return force;
-  });
+StressField own_stress(const Problem& problem, const DisplacementField& u) {
+  const int degree = displacement_degree(problem, u) - 1;
+  return stress_of_displacement(problem,
+                                problem.round.empty() || sides_of_stresses(degree) == Sides::curves
+                                    ? u
+                                    : elevated(problem, u, degree + 2));
 }
 
 template <int p>
@@ -311,61 +297,6 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem, int degre
       }
     return prescribed;
   });
-}
-
-double work_of_loads(const Problem& problem, const DisplacementField& u) {
-  if (!problem.loads.has_body_force() && !problem.loads.traction_MPa) return 0;
-  return nodal_loads(problem, displacement_degree(problem, u)).cwiseProduct(u).sum();
-}
-
-namespace {
-
-// Of the traction on an edge, with a motion that is linear along it.
-double work_of_traction(const Problem& problem, int row, int degree, const FreeMotions& free) {
-  const auto [start, end] = problem.mesh.boundary[row].vertices;
-  const Eigen::Vector2d &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
-  const Eigen::Matrix2Xd forces = traction_forces<double>(problem, row, degree);
-  double work = 0;
-  for (int j = 0; j <= degree; ++j)
-    work += forces.col(j).dot(
-        free.at(((degree + 1 - j) * a + (j + 1) * b) / (degree + 2), start));  // its moment
-  return work;
-}
-
-// What the loads do on curved sides more than on their chords.
-double work_beyond_chords(const Problem& problem, const FreeMotions& free, int degree) {
-  double work = 0;
-  for (const auto& [triangle, rows] : problem.round)
-    for (int k = 0; k < 3; ++k) {
-      const int row = rows[k];
-      if (row == Problem::no_row) continue;
-      if (problem.loads.traction_MPa && problem.mesh.boundary[row].role == BoundaryRole::force)
-        work +=
-            work_of_traction(problem, row, degree, free) - work_of_traction(problem, row, 1, free);
-      if (!problem.loads.has_body_force()) continue;
-      const TriangleVertices v = problem.vertices_of(triangle);
-      Eigen::Matrix<double, 2, 3> corners;  // of the third; ∫ of linear functions from them
-      corners << v.col(k), v.col((k + 1) % 3), v.rowwise().mean();
-      const Eigen::MatrixXd root =
-          CurvedSide<double>(problem.curve_of(row, 1), 1).mass_root(corners.col(2));
-      const Eigen::Vector3d weight = root.transpose() * root.rowwise().sum();
-      for (int i = 0; i < 3; ++i)
-        work += (weight(i) - problem.area_mm2(triangle) / 9) *
-                problem.loads.body_force_N_per_mm3.dot(
-                    free.at(corners.col(i), problem.mesh.boundary[row].vertices[0]));
-    }
-  return work;
-}
-
-}  // namespace
-
-double work_on_free_motion(const Problem& problem, const FreeMotions& free, int degree) {
-  if (free.amounts_mm.size() == 0) return 0;
-  const DisplacementField motion =
-      with_motion(problem, DisplacementField::Zero(2, displacement_nodes(problem)),
-                  [&](const auto& x, int vertex) { return free.at(x, vertex); });
-  return work_of_loads(problem, motion) +
-         (degree > 1 ? work_beyond_chords(problem, free, degree) : 0);
 }
 
 #define AIRYBENCH_INSTANTIATE(k)                                                  \

@@ -6,6 +6,9 @@
 // Values on an edge or a triangle lie in the convex hull of its coefficients, so a bound on all of
 // them holds at every point. U_ij is not the value at the edge's middle, (U_i + 2 U_ij + U_j)/4.
 //
+// Where a side stands for a curve (Problem::round) its triangle's polynomial goes on to it; what is
+// asked of it there is in curved_traces.hpp.
+//
 // The gradient has the degree p − 1, and so have strain and stress. For p = 2 its values at corners
 // are ∇u(V_k) = 2 Σ_j U_kj ∇λ_jᵀ (U_kk = U_k).
 #pragma once
@@ -33,14 +36,10 @@ DisplacementTriangle::Nodes triangle_nodes(const Problem& problem, int degree, i
 template <int p = 2>
 std::array<int, p + 1> boundary_nodes(const Problem& problem, int row);
 
-// On an edge of Γ_C, as Bernstein coefficients of degree p: its offset, and their frames.
-// std::invalid_argument: its slip has a higher degree.
+// The offset on an edge of Γ_C, as Bernstein coefficients of degree p. std::invalid_argument: its
+// slip has a higher degree.
 template <int p>
 std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int row);
-template <int p>
-EdgeFrame frame_of_coefficient(const Problem& problem, int row, int i) {
-  return problem.frame_at(row, i, p);
-}
 
 // The coefficients of a triangle.
 DisplacementTriangle::Displacement of_triangle(const Problem& problem, int degree,
@@ -58,6 +57,9 @@ Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u,
 using Motion = std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int vertex)>;
 DisplacementField with_motion(const Problem& problem, DisplacementField w, const Motion& motion);
 
+// The same field with the coefficients of a higher degree.
+DisplacementField elevated(const Problem& problem, const DisplacementField& u, int degree);
+
 // σ* = A ε0 of a triangle's thermal strain, MPa: Bernstein coefficients of degree k on all of it,
 // as of DisplacementTriangle::strain().
 Eigen::Matrix3Xd thermal_stress(const Problem& problem, int triangle, int k);
@@ -68,18 +70,10 @@ double thermal_work(const Problem& problem, const StressField& stress);
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u);
 StressField stress_of_strain(const Problem& problem, const DisplacementField& u);
 
-// Per node of displacements of one degree more than the stresses' ∫ σ:ε(u_i), N; a triangle's
-// largest contribution.
-struct NodalForces {
-  Eigen::Matrix2Xd sum;
-  double largest = 0;
-};
-NodalForces nodal_forces(const Problem& problem, const StressField& stress);
-// Those of σ*, of displacements of a degree.
-Eigen::Matrix2Xd thermal_forces(const Problem& problem, int degree);
-
-// ∫ b B_i + ∫_{Γ_F} f B_i, N: the work partners of the coefficients.
-Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree = 2);
+// The first of displacements that follow the curved sides of the body, if it has any
+// (Problem::round). That of P2 is then given as of degree 2: stresses of degree 1 are those of
+// the body between the chords.
+StressField own_stress(const Problem& problem, const DisplacementField& u);
 
 // Nodes that Γ_D prescribes, with their coefficients (zero elsewhere). Exact if u0 is quadratic on
 // every edge. Two rollers that are not parallel hold their common vertex fully. roller_normal: at
@@ -92,11 +86,5 @@ struct PrescribedDisplacement {
 using RollerNormal = std::function<Eigen::Vector2d(int row, int i)>;
 PrescribedDisplacement prescribed_displacement(const Problem& problem, int degree = 2,
                                                const RollerNormal& roller_normal = {});
-
-// ∫ b·u + ∫_{Γ_F} f·u, N mm.
-double work_of_loads(const Problem& problem, const DisplacementField& u);
-// The same of free pieces' own motions, of these amounts, zero where there are none. degree: that
-// of the stresses, which may follow curved sides (Problem::round).
-double work_on_free_motion(const Problem& problem, const FreeMotions& free, int degree = 1);
 
 }  // namespace airybench

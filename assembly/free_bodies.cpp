@@ -5,13 +5,13 @@
 namespace airybench {
 
 void add_free_bodies(
-    const Problem& problem,
+    const Problem& problem, int degree,
     const std::function<Eigen::Vector2d(const RigidMotion& motion, int point)>& in_frame,
     ContactPoints& contact) {
   if (!problem.free.are_unknown()) return;
   const auto& [motions, pins, piece_of_vertex, amounts] = problem.free;
   FreeBodies& free = contact.free;
-  free.rigid = std::make_shared<const RigidContact>(rigid_contact(problem, contact.per_edge - 1));
+  free.rigid = std::make_shared<const RigidContact>(rigid_contact(problem, degree));
   free.motions = Eigen::MatrixXd::Zero(contact.size(), std::ssize(motions));
   for (Eigen::Index m = 0; m < free.motions.cols(); ++m) {
     const auto& [piece, of_one_mm, area_mm2] = motions[m];

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "assembly/displacement_field.hpp"
+#include "assembly/nodal_forces.hpp"
 #include "assembly/problem/load_scale.hpp"
 
 namespace airybench {

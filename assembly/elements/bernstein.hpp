@@ -35,6 +35,21 @@ Scalar bernstein_polynomial(int k, int j, const Scalar& s) {
   return value;
 }
 
+// All B_α of degree d at barycentric coordinates, by ring_place(); beyond the triangle, too.
+template <typename Scalar>
+Eigen::VectorX<Scalar> bernstein_values(int d, const Eigen::Vector3<Scalar>& lambda) {
+  Eigen::VectorX<Scalar> values(bernstein_count(d));
+  for (int c = 0; c <= d; ++c)
+    for (int b = 0; b <= d - c; ++b) {
+      Scalar value = Scalar(binomial(d, b) * binomial(d - b, c));
+      for (int i = 0; i < d - b - c; ++i) value *= lambda(0);
+      for (int i = 0; i < b; ++i) value *= lambda(1);
+      for (int i = 0; i < c; ++i) value *= lambda(2);
+      values(ring_place(d, b, c)) = value;
+    }
+  return values;
+}
+
 // ∫ B_α B_β over a triangle of area a = a Π binom(α_p + β_p, α_p) / (binom(2d, d) binom(2d+2, 2)).
 template <typename Scalar>
 Eigen::MatrixX<Scalar> bernstein_mass(int d, Scalar area) {

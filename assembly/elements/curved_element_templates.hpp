@@ -172,16 +172,7 @@ Eigen::VectorX<Scalar> CurvedSide<Scalar>::bernstein(const Vector& centroid, int
   const Scalar whole = cross(b_ - a_, centroid - a_);
   const Scalar first = rho * cross(b_ - at_[q], centroid - at_[q]) / whole,
                second = rho * cross(at_[q] - a_, centroid - a_) / whole, last = 1 - first - second;
-  Eigen::VectorX<Scalar> values(bernstein_count(degree_));
-  for (int c = 0; c <= degree_; ++c)
-    for (int b = 0; b <= degree_ - c; ++b) {
-      Scalar value = Scalar(binomial(degree_, b) * binomial(degree_ - b, c));
-      for (int i = 0; i < degree_ - b - c; ++i) value *= first;
-      for (int i = 0; i < b; ++i) value *= second;
-      for (int i = 0; i < c; ++i) value *= last;
-      values(ring_place(degree_, b, c)) = value;
-    }
-  return values;
+  return bernstein_values<Scalar>(degree_, {first, second, last});
 }
 
 template <typename Scalar>

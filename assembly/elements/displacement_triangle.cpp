@@ -58,18 +58,7 @@ DisplacementTriangle::DisplacementTriangle(int p)
     for (int t = 0; t < 3; ++t)
       on_thirds.row(s).segment(strains * t, strains) =
           on_third(p - 1, t, Eigen::RowVectorXd::Unit(strains, s));
-  Eigen::MatrixXd derivative[2];
-  for (int a = 0; a < 2; ++a) {
-    derivative[a].setZero(strains, nodes);
-    for (int s = 0; s < strains; ++s) {
-      derivative[a](s, node[s][a + 1]) = p;
-      derivative[a](s, node[s][0]) = -p;
-    }
-  }
-  constexpr int pairs[3][2] = {{0, 0}, {1, 1}, {0, 1}};
-  for (int i = 0; i < 3; ++i)
-    products[i] = derivative[pairs[i][0]].transpose().lazyProduct(
-        mass.lazyProduct(derivative[pairs[i][1]]).eval());
+  products = products_of(mass);
   edge_moments.resize(p, p + 1);
   for (int j = 0; j < p; ++j)
     for (int i = 0; i <= p; ++i) edge_moments(j, i) = edge_moment(p - 1, j, p, i);
@@ -77,6 +66,35 @@ DisplacementTriangle::DisplacementTriangle(int p)
 
 const DisplacementTriangle& DisplacementTriangle::of_degree(int p) {
   return made_once(p - 1, [](int k) { return DisplacementTriangle(k + 1); });
+}
+
+Eigen::VectorXd DisplacementTriangle::values(const TriangleShape& shape,
+                                             const Eigen::Vector2d& from_first) const {
+  const Eigen::Vector2d xi = shape.gradients.transpose().lazyProduct(from_first);
+  const Eigen::VectorXd by_rings =
+      bernstein_values<double>(degree, {1 - xi.x() - xi.y(), xi.x(), xi.y()});
+  Eigen::VectorXd values(nodes);
+  for (int m = 0; m < nodes; ++m)
+    values(m) = by_rings(ring_place(degree, exponents[m][1], exponents[m][2]));
+  return values;
+}
+
+DisplacementTriangle::Products DisplacementTriangle::products_of(
+    const Eigen::MatrixXd& mass_of_domain) const {
+  Eigen::MatrixXd derivative[2];
+  for (int a = 0; a < 2; ++a) {
+    derivative[a].setZero(strains, nodes);
+    for (int s = 0; s < strains; ++s) {
+      derivative[a](s, node[s][a + 1]) = degree;
+      derivative[a](s, node[s][0]) = -degree;
+    }
+  }
+  constexpr int pairs[3][2] = {{0, 0}, {1, 1}, {0, 1}};
+  Products result;
+  for (int i = 0; i < 3; ++i)
+    result[i] = derivative[pairs[i][0]].transpose().lazyProduct(
+        mass_of_domain.lazyProduct(derivative[pairs[i][1]]).eval());
+  return result;
 }
 
 DisplacementTriangle::Strain DisplacementTriangle::strain(const Eigen::Matrix2d& gradients,
@@ -110,6 +128,7 @@ DisplacementTriangle::Displacement DisplacementTriangle::forces(const Eigen::Mat
 
 DisplacementTriangle::Stiffness DisplacementTriangle::stiffness(const TriangleShape& shape,
                                                                 const Eigen::Matrix3d& elasticity,
+                                                                const Products& of_domain,
                                                                 int first, int count) const {
   std::array<Eigen::Matrix<double, 3, 2>, 2> strain_of;  // of a displacement along x, y
   for (int a = 0; a < 2; ++a) {
@@ -122,7 +141,7 @@ DisplacementTriangle::Stiffness DisplacementTriangle::stiffness(const TriangleSh
   };
   const Eigen::Matrix2d first_first = product(0, 0), second_second = product(1, 1),
                         first_second = product(0, 1);
-  const auto& [D11, D22, D12] = products;
+  const auto& [D11, D22, D12] = of_domain;
   Stiffness K(2 * count, 2 * count);
   for (int j = 0; j < count; ++j)
     for (int i = 0; i < count; ++i) {

@@ -66,10 +66,12 @@ class DisplacementTriangle {
   // The nodes β + e_0, β + e_1, β + e_2.
   std::vector<std::array<int, 3>> node;
 
-  Eigen::MatrixXd mass;                     // ∫ B_β B_γ, per area
-  Eigen::MatrixXd on_thirds;                // times it: coefficients by thirds
-  std::array<Eigen::MatrixXd, 3> products;  // ∫ ∂_a B ∂_b B', per area: 11, 22, 12
-  Eigen::MatrixXd edge_moments;             // moment j, of degree k, of coefficient i on an edge
+  using Products = std::array<Eigen::MatrixXd, 3>;
+
+  Eigen::MatrixXd mass;          // ∫ B_β B_γ, per area
+  Eigen::MatrixXd on_thirds;     // times it: coefficients by thirds
+  Products products;             // ∫ ∂_a B ∂_b B', per area: 11, 22, 12
+  Eigen::MatrixXd edge_moments;  // moment j, of degree k, of coefficient i on an edge
 
   // The nodes of edge e, V_e V_(e+1), as walked.
   int on_edge(int e, int i) const {
@@ -78,15 +80,27 @@ class DisplacementTriangle {
   Strain strain(const Eigen::Matrix2d& gradients, const DisplacementRef& u) const;
   // Its transpose: forces on the nodes, from rows xx, yy, xy.
   Displacement forces(const Eigen::Matrix2d& gradients, const StressRef& dual) const;
+  // B_α of the nodes at V1 + from_first, beyond the triangle, too.
+  Eigen::VectorXd values(const TriangleShape& shape, const Eigen::Vector2d& from_first) const;
+  // `products` of another domain, from its `mass`.
+  Products products_of(const Eigen::MatrixXd& mass_of_domain) const;
   // K, N/mm: ∫ ε(B):A:ε(B'), 1 mm thick; rows and columns of `count` nodes from `first` on.
   Stiffness stiffness(const TriangleShape& shape, const Eigen::Matrix3d& elasticity, int first,
-                      int count) const;
+                      int count) const {
+    return stiffness(shape, elasticity, products, first, count);
+  }
   Stiffness stiffness(const TriangleShape& shape, const Eigen::Matrix3d& elasticity) const {
     return stiffness(shape, elasticity, 0, nodes);
+  }
+  Stiffness stiffness(const TriangleShape& shape, const Eigen::Matrix3d& elasticity,
+                      const Products& of_domain) const {
+    return stiffness(shape, elasticity, of_domain, 0, nodes);
   }
 
  private:
   explicit DisplacementTriangle(int p);
+  Stiffness stiffness(const TriangleShape& shape, const Eigen::Matrix3d& elasticity,
+                      const Products& of_domain, int first, int count) const;
 };
 
 }  // namespace airybench

@@ -276,6 +276,12 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
   return problem;
 }
 
+Problem with_chords(Problem problem) {
+  problem.round.clear();
+  problem.round_rows.clear();
+  return problem;
+}
+
 SplitDisplacement split_rigid_motion(const Problem& problem) {
   std::vector<PrescribedEdge> edges;
   const auto& x = problem.mesh.vertices;

@@ -62,6 +62,12 @@ struct Loads {
   bool has_body_force() const { return !body_force_N_per_mm3.isZero(0); }
 };
 
+// What stands for the curved edges of a body. Stresses of degree 1 take the chords.
+enum class Sides : std::uint8_t { chords, curves };
+constexpr Sides sides_of_stresses(int degree) {
+  return degree == 1 ? Sides::chords : Sides::curves;
+}
+
 enum class Known : std::uint8_t { displacement, force, contact_law };
 struct EdgeCondition {
   bool in_frame;  // components: outward normal and tangent; else x and y
@@ -142,9 +148,9 @@ struct Problem {
     int inserted = 0, moved = 0;
     bool has_curves = false;  // edges stand for curves; the gap is known at three points of each
   } matching = {};
-  // Stresses of degree 2 and more follow curved edges (curved_element.hpp), of a pair both or none,
-  // rollers unless a piece could then move along them; others take their chords. Triangles and rows
-  // in ascending order.
+  // Stresses of degree 2 and more (curved_element.hpp) and displacements (curved_traces.hpp) follow
+  // curved edges, of a pair both or none, rollers unless a piece could then move along them; others
+  // take their chords. Triangles and rows in ascending order.
   struct RoundTriangle {
     int triangle;
     std::array<int, 3> rows;  // per side, of Mesh::boundary
@@ -176,8 +182,8 @@ struct Problem {
     return !loads.thermal.empty() && !thermal_of(triangle).is_zero();
   }
 
-  // Per side of a triangle points of the curve that stresses of a degree follow; none:
-  // straight sides only.
+  // Per side of a triangle points of the curve that stresses or displacements of a degree follow;
+  // none: straight sides only.
   std::optional<CurvedSides> curves_of(int triangle, int degree) const;
   bool follows_curve(int boundary_row, int degree) const;
   SideCurve curve_of(int boundary_row, int degree) const;  // if it follows one
@@ -279,6 +285,8 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
                      const std::vector<double>& friction);
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction);
+// The same body between the chords of its curved edges.
+Problem with_chords(Problem problem);
 // For a problem with the whole u0.
 SplitDisplacement split_rigid_motion(const Problem& problem);
 // The same body under other loads with the whole u0; without later steps and known free motions.

@@ -218,7 +218,7 @@ Solution solve_body(const Caller& caller, const ContactSystem& system, const Run
   DisplacementField w = displacement_of(problem, values);
   solution.stress = stress_of_displacement(problem, w);
   const ControlPoints points = control_points(problem);
-  solution.F_C = contact_reactions(problem, points, solution.stress);
+  solution.F_C = contact_reactions(problem, points, w);
   solution.contact_displacement = displacement_at(points, w);
   solution.unknowns = Displacements{std::move(w), caller.declaration.tolerances};
   return solution;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "assembly/control_points.hpp"
+#include "assembly/curved_traces.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/total_displacement.hpp"
 #include "bench/measure/part_answer.hpp"
@@ -209,6 +210,7 @@ template <int p>
 void take_forces_of_displacements(const ContactSystem& system, const Solution& solution,
                                   ContactPicture& picture) {
   const Problem& problem = *system.problem;
+  const int last = system.contact.per_edge - 1;
   const ControlPoints control = control_points(problem, p);
   const std::vector<ContactState> states = contact_states(control.law, solution.F_C);
   std::map<int, ContactState> state_of_node;
@@ -216,14 +218,18 @@ void take_forces_of_displacements(const ContactSystem& system, const Solution& s
   const std::vector<TriangleSide> sides = boundary_sides(problem.edges);
 
   for (int point = 0; point < system.contact.count; ++point) {
-    const int row = system.contact.boundary[point], j = point % p;
+    const int row = system.contact.boundary[point], j = point % (last + 1);
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
-    const auto found = state_of_node.find(nodes[2 * j < p ? j : j + 1]);
+    const auto found = state_of_node.find(nodes[(2 * j * p + last - 1) / (2 * last)]);
     picture.state.push_back(found != state_of_node.end() ? found->second
                                                          : state_of_node.at(nodes[1]));
     const auto [t, k] = sides[static_cast<std::size_t>(row)];
+    const TriangleVertices v = problem.vertices_of(t);
     const Eigen::Vector2d force =
-        element_edge_forces(problem.vertices_of(t), solution.stress[t], k).col(j);
+        (problem.follows_curve(row, system.degree)
+             ? curved_edge_forces(v, solution.stress[t], k, problem.curve_of(row, system.degree))
+             : element_edge_forces(v, solution.stress[t], k))
+            .col(j);
     picture.force.emplace_back(picture.frame[point].normal.dot(force),
                                picture.frame[point].tangent.dot(force));
   }
@@ -234,15 +240,18 @@ std::vector<Eigen::Vector2d> moments_of(const ContactSystem& system, const Displ
                                         const std::vector<EdgeFrame>& frames) {
   return with_degree(system.degree, [&](auto degree) {
     constexpr int k = degree, p = k + 1;
+    const CurvedTraces traces(*system.problem, p, sides_of_stresses(k));
+    const DisplacementField d = traces.traces(w);
     std::vector<Eigen::Vector2d> moments;
     for (int point = 0; point < system.contact.count; ++point) {
       const int row = system.contact.boundary[point];
       const std::array<int, p + 1> nodes = boundary_nodes<p>(*system.problem, row);
-      const auto offset = offset_coefficients<p>(*system.problem, row);
-      const EdgeFrame& frame = frames[point];
+      const auto offset = traces.offsets<p>(row);
+      const bool is_curved = system.problem->follows_curve(row, k);
       Eigen::Vector2d& moment = moments.emplace_back(0, 0);
       for (int i = 0; i <= p; ++i) {
-        const Eigen::Vector2d u = w.col(nodes[i]);
+        const EdgeFrame frame = is_curved ? traces.frame(row, i) : frames[point];
+        const Eigen::Vector2d u = d.col(nodes[i]);
         moment += edge_moment(k, point % (k + 1), p, i) *
                   (Eigen::Vector2d(frame.normal.dot(u), frame.tangent.dot(u)) -
                    offset[i].along(frame.normal));
@@ -264,8 +273,12 @@ std::vector<Eigen::Vector2d> between_bodies(const ContactPoints& contact,
 
 ContactPicture contact_picture(const ContactSystem& system, const Solution& solution,
                                const std::optional<DisplacementField>& w) {
+  const auto* const displacements = solution.as<Displacements>();
+  const bool has_own_points = displacements == nullptr;
+  if (const int degree = solution.stress.degree(); displacements && degree != system.degree)
+    return contact_picture(contact_system(system.problem, degree), solution,
+                           w ? std::optional(elevated(*system.problem, *w, degree + 1)) : w);
   const ContactPoints& contact = system.contact;
-  const bool has_own_points = solution.as<Displacements>() == nullptr;
   ContactPicture picture;
   picture.per_edge = static_cast<std::size_t>(contact.per_edge);
   picture.opposite = contact.opposite;
@@ -286,7 +299,7 @@ ContactPicture contact_picture(const ContactSystem& system, const Solution& solu
   if (has_own_points)
     take_forces(contact, solution, picture);
   else
-    with_degree(system.degree,
+    with_degree(displacement_degree(*system.problem, displacements->w) - 1,
                 [&](auto k) { take_forces_of_displacements<k + 1>(system, solution, picture); });
   if (w)
     for (const Eigen::Vector2d& r :

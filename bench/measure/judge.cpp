@@ -132,7 +132,8 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
     verdict = judge_penetration(result.steps, displacements->by_program->allowed_penetration,
                                 std::move(verdict));
   if (!problem_) return verdict;
-  result.polygons = polygon_groups(*problem_, method.in_displacements() ? 1 : method.degree);
+  const bool of_displacements = method.in_displacements() && !is_by_program;
+  result.polygons = polygon_groups(*problem_, method.degree + (of_displacements ? 1 : 0));
   if (is_by_program && reference(1) == nullptr)
     return {has_answer(verdict.status) ? Status::inaccurate : verdict.status,
             "its error is not known: " + references(1).missing};

@@ -72,6 +72,9 @@ class Judge {
   Verdict judge_total_error(const Method& method, Verdict so_far, const CaseResult& result) const;
 
   std::optional<Bound> bound_for(const Method& method) const;  // none: it has its own
+  // Of the stresses that an error is relative to: displacements of a body with curves have none of
+  // degree 1.
+  int degree_of_stresses(Bound bound, int degree) const;
   bool wants_intervals(int degree) const;
   // Null: stresses or displacements are missing.
   const Discretisation* discretisation(Bound bound, int degree);

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <tuple>
 
+#include "assembly/curved_traces.hpp"
 #include "bench/measure/field_files.hpp"
 #include "bench/measure/judge.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/verify/curved_traces.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
 
@@ -17,16 +17,24 @@ namespace airybench {
 
 std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
   if (method.in_displacements() && !method.program.empty()) return {};  // it has its own
-  return method.in_displacements() || (common_.error_of_displacements && method.degree == 1)
-             ? Bound::displacement
-             : Bound::recovery;
+  if (method.in_displacements()) return Bound::displacement;
+  // P2's displacements are those of a body with curves, stresses of degree 1 of one with chords.
+  const bool by_displacements =
+      common_.error_of_displacements && method.degree == 1 && problem_->round.empty();
+  return by_displacements ? Bound::displacement : Bound::recovery;
+}
+
+int Judge::degree_of_stresses(Bound bound, int degree) const {
+  const bool on_curves = bound == Bound::displacement && !problem_->round.empty();
+  return on_curves ? std::max(degree, 2) : degree;
 }
 
 bool Judge::wants_intervals(int degree) const { return degree > 1 || common_.intervals; }
 
 const Judge::Discretisation* Judge::discretisation(Bound bound, int degree) {
   const auto [found, is_new] = discretisation_.try_emplace({bound, degree});
-  if (is_new && reference(degree) != nullptr && discretisation_left_out_.empty())
+  if (is_new && reference(degree_of_stresses(bound, degree)) != nullptr &&
+      discretisation_left_out_.empty())
     found->second = compute_discretisation(bound, degree);
   return found->second ? &*found->second : nullptr;
 }
@@ -65,11 +73,12 @@ std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const Con
                                                                        const Solution& reference,
                                                                        const DisplacementField& u) {
   ConstitutiveError error = constitutive_error(system, reference.stress, reference.F_C, u);
-  const bool all_straight =
-      CurvedTraces(*system.problem, displacement_degree(*system.problem, u)).empty();
+  const bool all_straight = CurvedTraces(*system.problem, displacement_degree(*system.problem, u),
+                                         sides_of_stresses(system.degree))
+                                .empty();
   if (error.flaw.empty() && all_straight) return {std::move(error), u};
   // They meet the law only at nodes (at a corner of two walls with the mean normal), and may
-  // penetrate a wall in between; and their sides are chords.
+  // penetrate a wall in between; and P2's may leave u0 and the wall between its nodes on a curve.
   DisplacementField behind = admissible_displacement(system, reference.F_C, u);
   ConstitutiveError of_it = constitutive_error(system, reference.stress, reference.F_C, behind);
   if (of_it.flaw.empty()) return {std::move(of_it), std::move(behind)};
@@ -92,18 +101,21 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
     Eigen::VectorXd free_motion_mm;
   };
   std::vector<OwnDisplacement> own_u;
+  const int of_stresses = degree_of_stresses(bound, degree);
   Method method = select_methods(common_.stresses_by).front();
-  if (method.degree != degree) method = select_methods(hybrid_of_degree(degree)).front();
+  if (method.degree != of_stresses) method = select_methods(hybrid_of_degree(of_stresses)).front();
   Solve solve = method.solve;
   if (bound == Bound::displacement) {
     solve_load_steps(
         select_methods(displacements_of_degree(degree + 1)).front(), problem_, {},
         [&](int, const ContactSystem&, const Solution& answer) {
           if (answer.status == Status::ok)
-            own_u.push_back({std::get<Displacements>(answer.unknowns).w, answer.free_motion_mm});
+            own_u.push_back(
+                {elevated(*problem_, std::get<Displacements>(answer.unknowns).w, of_stresses + 1),
+                 answer.free_motion_mm});
         });
     if (std::ssize(own_u) < count_of_steps(*problem_)) return {};
-    solve = references_one_by_one(degree);
+    solve = references_one_by_one(of_stresses);
   }
   Discretisation found;
   DiscretisationError& result = found.result;
@@ -111,7 +123,7 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   DisplacementField& u = found.u;
   result.by = bound == Bound::displacement ? displacements_of_degree(degree + 1) : "recovery";
   std::optional<ResultantLifts> lifts;
-  ContactSystem system = contact_system(problem_, degree);
+  ContactSystem system = contact_system(problem_, of_stresses);
   solve_load_steps(
       solve, system, {}, [&](int step, const ContactSystem& posed, const Solution& own) {
         if (own.status != Status::ok) return;
@@ -169,7 +181,7 @@ DiscretisationError Judge::discretisation_error(const Method& method, bool is_ot
   } else if (known != nullptr) {
     result = known->result;
   } else if (method.in_displacements()) {
-    const std::string& missing = references(method.degree).missing;
+    const std::string& missing = references(degree_of_stresses(*bound, method.degree)).missing;
     result.missing = !missing.empty()                   ? missing
                      : discretisation_left_out_.empty() ? method.name + " has no answer"
                                                         : discretisation_left_out_;
@@ -230,11 +242,12 @@ void Judge::write_fields_of(const Method& method, const ContactSystem& system,
     fields.error = &known->error;
     if (known->result.intervals) fields.intervals = &*known->result.intervals;
     if (common_.mean_fields)
-      fields.mean =
-          mean_stress(*problem_,
-                      method.in_displacements() ? references(method.degree).steps.back().stress
-                                                : solution.stress,
-                      known->u);
+      fields.mean = mean_stress(
+          *problem_,
+          method.in_displacements()
+              ? references(degree_of_stresses(*bound, method.degree)).steps.back().stress
+              : solution.stress,
+          known->u);
   }
   write_fields(file.parent_path(), file.filename(), fields);
 }

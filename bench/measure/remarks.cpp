@@ -136,8 +136,8 @@ std::vector<std::string> remarks_on_half_steps(const std::vector<StepResult>& st
 std::string remark_on_polygons(const Method& method, const std::string& polygons,
                                const TotalError& total) {
   if (polygons.empty()) return "";
-  // P3's and P4's error is to stresses that follow the curves: η is not of their chords.
-  const bool is_of_chords = !method.in_displacements() || method.degree == 1;
+  // P2's to P4's error is to stresses that follow the curves: η is not of their chords alone.
+  const bool is_of_chords = !method.in_displacements() || !method.program.empty();
   return fmt::format(
       "curves that are solved as polygons: {}{}", polygons,
       !total.of_mesh() || !(total.geometry() > 0) ? ""

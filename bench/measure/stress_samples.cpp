@@ -22,14 +22,7 @@ StressSamples::StressSamples(const Problem& problem, const StressField& stress, 
 }
 
 Eigen::VectorXd StressSamples::polynomials(const Eigen::Vector3d& weights) const {
-  const int d = stress_.degree();
-  Eigen::VectorXd values(bernstein_count(d));
-  for (int c = 0; c <= d; ++c)
-    for (int b = 0; b <= d - c; ++b)
-      values(ring_place(d, b, c)) = binomial(d, b) * binomial(d - b, c) *
-                                    std::pow(weights(0), d - b - c) * std::pow(weights(1), b) *
-                                    std::pow(weights(2), c);
-  return values;
+  return bernstein_values(stress_.degree(), weights);
 }
 
 StressSamples::Third StressSamples::third(int triangle, int k) const {

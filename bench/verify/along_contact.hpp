@@ -5,9 +5,9 @@
 #include <array>
 #include <limits>
 
+#include "assembly/curved_traces.hpp"
 #include "assembly/displacement_field.hpp"
 #include "assembly/elements/bernstein.hpp"
-#include "bench/verify/curved_traces.hpp"
 
 namespace airybench {
 

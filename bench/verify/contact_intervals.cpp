@@ -5,6 +5,7 @@
 
 #include "assembly/elements/bernstein.hpp"
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/nodal_forces.hpp"
 #include "bench/verify/along_contact.hpp"
 
 namespace airybench {
@@ -20,7 +21,8 @@ std::optional<Bracket> resultant(const Problem& problem, const StressField& mean
                                  const StressField& stress, double sum_N, double error,
                                  double rounding_N, const std::optional<Lift>& lift) {
   if (!lift) return {};
-  double of_mean = -work_of_loads(problem, lift->v), of_stress = of_mean;
+  double of_mean = -work_of_loads(problem, lift->v, sides_of_stresses(stress.degree())),
+         of_stress = of_mean;
   for (int t = 0; t < static_cast<int>(mean.size()); ++t) {
     of_mean += stress_product(problem, t, mean, lift->stress);
     of_stress += stress_product(problem, t, stress, lift->stress);

@@ -48,12 +48,13 @@ Penetration penetration(const Problem& problem, const DisplacementField& w) {
   Penetration result;
   with_degree(displacement_degree(problem, w) - 1, [&](auto k) {
     constexpr int p = k + 1;
-    const CurvedTraces chords = CurvedTraces::on_chords(problem, p);
+    const CurvedTraces traces(problem, p);
+    const DisplacementField d = traces.traces(w);
     std::map<int, ContactMotion<p>> motions;  // by row
     std::map<int, double> at_vertex;          // the least of its edges
     for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
       if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
-      const auto& beyond = (motions[row] = contact_motion<p>(problem, chords, row, w)).beyond;
+      const auto& beyond = (motions[row] = contact_motion<p>(problem, traces, row, d)).beyond;
       for (int end = 0; end < 2; ++end) {
         const int vertex = problem.mesh.boundary[row].vertices[end];
         const auto [found, is_new] = at_vertex.try_emplace(vertex, beyond[end * p]);

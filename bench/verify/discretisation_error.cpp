@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/nodal_forces.hpp"
 #include "assembly/rough_compliance.hpp"
 #include "bench/verify/along_contact.hpp"
 #include "bench/verify/geometry_error.hpp"
@@ -156,7 +157,7 @@ void note_bounds(const ContactSystem& system, const Fields& fields, double highe
     (F_n < 0 ? pressing : pulling) += std::abs(F_n);
     lower += F_n * more_gap(p);
   }
-  const double upper = energy_of_u - work_of_loads(*system.problem, u) -
+  const double upper = energy_of_u - work_of_loads(*system.problem, u, sides_of_stresses(k)) -
                        work_on_free_motion(*system.problem, system.problem->free);
   const double allowance = pressing * std::max(0.0, highest_gap) +
                            pulling * u.lpNorm<Eigen::Infinity>() +
@@ -221,7 +222,7 @@ ConstitutiveError error_of(const ContactSystem& system, const StressField& stres
   const Problem& problem = *system.problem;
   ConstitutiveError error;
   Fields fields{stress, F_C, u, 0, 0};
-  const CurvedTraces traces(problem, k + 1);
+  const CurvedTraces traces(problem, k + 1, sides_of_stresses(k));
   const DisplacementField of_traces = traces.traces(u);
   add_body(problem, traces, fields, error);
   const std::vector<TriangleSide> sides = boundary_sides(problem.edges);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "assembly/contact_system.hpp"
+#include "assembly/curved_traces.hpp"
 #include "assembly/displacement_field.hpp"
-#include "bench/verify/curved_traces.hpp"
 
 namespace airybench {
 

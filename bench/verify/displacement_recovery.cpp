@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "bench/verify/curved_traces.hpp"
+#include "assembly/curved_traces.hpp"
 #include "bench/verify/displacement_constraints.hpp"
 #include "bench/verify/own_displacement.hpp"
 #include "bench/verify/positive_definite.hpp"
@@ -165,7 +165,7 @@ class Recovery {
            const Eigen::MatrixXd& edge_moments)
       : problem_(*system.problem),
         element_(Triangle::of_degree(stress.degree() + 1)),
-        traces_(problem_, element_.degree),
+        traces_(problem_, element_.degree, sides_of_stresses(stress.degree())),
         own_(2, element_.nodes * static_cast<Eigen::Index>(stress.size())),
         constraints_(system, traces_, F_C),
         stress_(stress) {
@@ -325,7 +325,7 @@ DisplacementField admissible_displacement(const ContactSystem& system, const Eig
     const auto node = triangle_nodes(problem, element.degree, t);
     for (std::size_t m = 0; m < node.size(); ++m) stiffness(node[m]) += weight[m];
   }
-  const CurvedTraces traces(problem, element.degree);
+  const CurvedTraces traces(problem, element.degree, sides_of_stresses(element.degree - 1));
   w = traces.traces(w);
   DisplacementConstraints(system, traces, F_C).apply(stiffness, w);
   return traces.coefficients(w);

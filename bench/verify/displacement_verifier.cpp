@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "assembly/control_points.hpp"
+#include "assembly/curved_traces.hpp"
+#include "assembly/nodal_forces.hpp"
 #include "assembly/rough_compliance.hpp"
 #include "assembly/total_displacement.hpp"
 #include "bench/verify/contact_violations.hpp"
@@ -61,20 +63,21 @@ Eigen::Matrix2Xd forces_of_rounding(const Problem& problem, const DisplacementFi
   return force;
 }
 
-// Over the largest displacement.
+// Over the largest displacement. d: the traces of w.
 double relative_to_prescribed(const Problem& problem, const DisplacementField& w,
-                              const PrescribedDisplacement& prescribed, double precision) {
+                              const DisplacementField& d, const PrescribedDisplacement& prescribed,
+                              double precision) {
   const DisplacementField u = with_rigid_motion(problem, w);
   double off = 0, largest = 0;
   const auto add = [&](Eigen::Index node, double distance) {
     off = larger_error(off, std::abs(distance) - precision * u.col(node).norm());
   };
   for (Eigen::Index node = 0; node < w.cols(); ++node) {
-    largest = std::max({largest, w.col(node).norm(), prescribed.u.col(node).norm()});
-    if (prescribed.at[node]) add(node, (w.col(node) - prescribed.u.col(node)).norm());
+    largest = std::max({largest, d.col(node).norm(), prescribed.u.col(node).norm()});
+    if (prescribed.at[node]) add(node, (d.col(node) - prescribed.u.col(node)).norm());
   }
   for (const auto& [node, n] : prescribed.normal)
-    add(node, n.dot(w.col(node) - prescribed.u.col(node)));
+    add(node, n.dot(d.col(node) - prescribed.u.col(node)));
   return relative_error(off, largest, 0);
 }
 
@@ -110,11 +113,13 @@ Verification verify_displacement(const ContactSystem& system, const Solution& so
   const ControlPoints control = control_points(problem, degree);
   const int m = control.law.components;
   const LoadScale scale = load_scale(problem);
-  const StressField stress = stress_of_displacement(problem, w);
-  NodalForces balance = nodal_forces(problem, stress);
-  balance.sum -= nodal_loads(problem, degree);
+  const CurvedTraces traces(problem, degree);
+  const DisplacementField d = traces.traces(w);
+  const StressField stress = own_stress(problem, w);
+  NodalForces balance = nodal_forces(problem, w);
+  balance.sum = traces.forces(balance.sum - nodal_loads(problem, degree));
 
-  const Eigen::VectorXd displacement = displacement_at(control, w);
+  const Eigen::VectorXd displacement = displacement_at(control, d);
   for (int p = 0; p < control.law.count; ++p) {
     const Eigen::Matrix2d frame = control.frame(p);
     const int node = control.node[p];
@@ -126,7 +131,7 @@ Verification verify_displacement(const ContactSystem& system, const Solution& so
       balance.sum.col(node) += (std::copysign(beyond, off) - off) * t;
     }
   }
-  const PrescribedDisplacement prescribed = prescribed_displacement(problem, degree);
+  const PrescribedDisplacement prescribed = traces.prescribed();
   for (const auto& [node, n] : prescribed.normal)  // the roller's reaction
     balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
   Eigen::Vector2d weak_N(0, 0);
@@ -150,7 +155,7 @@ Verification verify_displacement(const ContactSystem& system, const Solution& so
   Verification result;
   constexpr double of_doubles = 1e-15;
   result.prescribed_off = relative_to_prescribed(
-      problem, w, prescribed, of_doubles + (by_program ? by_program->print_precision : 0));
+      problem, w, d, prescribed, of_doubles + (by_program ? by_program->print_precision : 0));
   result.equilibrium_residual = scale.relative_force(unbalanced, balance.largest);
   result.unbalanced_N = resultant.norm();
   result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;

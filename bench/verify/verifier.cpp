@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/nodal_forces.hpp"
 #include "assembly/rough_compliance.hpp"
 #include "assembly/traction_forces.hpp"
 #include "bench/verify/contact_violations.hpp"

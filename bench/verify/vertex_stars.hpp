@@ -10,8 +10,8 @@
 
 #include <vector>
 
+#include "assembly/curved_traces.hpp"
 #include "assembly/displacement_field.hpp"
-#include "bench/verify/curved_traces.hpp"
 
 namespace airybench {
 

@@ -61,6 +61,14 @@ Solution run_any(const SolveAny& solve, const Problem& problem, const RunControl
   }
 }
 
+// Programs in displacements have the chords of curved sides.
+std::shared_ptr<const Problem> body_of(const Method& method,
+                                       std::shared_ptr<const Problem> problem) {
+  const bool has_chords = method.in_displacements() && !method.program.empty();
+  if (!has_chords || problem->round.empty()) return problem;
+  return std::make_shared<const Problem>(with_chords(*problem));
+}
+
 }  // namespace
 
 std::unique_ptr<ContactSystem> assemble(const Method& method,
@@ -69,7 +77,8 @@ std::unique_ptr<ContactSystem> assemble(const Method& method,
   if (method.unknowns == Unknowns::airy_function)
     system.reset(new AirySystem(airy_system(std::move(problem))));
   else
-    system.reset(new ContactSystem(contact_system(std::move(problem), method.degree)));
+    system.reset(
+        new ContactSystem(contact_system(body_of(method, std::move(problem)), method.degree)));
   return system;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "assembly/curved_traces.hpp"
+
 namespace airybench {
 namespace {
 
@@ -71,13 +73,14 @@ struct Element {
 };
 
 Element element(const Problem& problem, const DisplacementSystem& system,
-                const std::map<int, Eigen::Matrix2d>& frame, int t,
+                const CurvedTraces& traces, const std::map<int, Eigen::Matrix2d>& frame, int t,
                 const Eigen::Matrix3d& elasticity) {
   const auto& triangle = DisplacementTriangle::of_degree(system.degree);
   Element result{triangle_nodes(problem, system.degree, t),
                  {},
                  DisplacementTriangle::Vector(2 * triangle.nodes),
-                 triangle.stiffness(TriangleShape(problem.vertices_of(t)), elasticity)};
+                 triangle_stiffness(problem, system.degree, t, elasticity)};
+  if (const auto* const curved = traces.of(t)) result.K = curved->of_traces(result.K);
   for (int m = 0; m < triangle.nodes; ++m) {
     const int node = result.nodes[m];
     Eigen::Vector2d given = system.given.u.col(node);
@@ -104,13 +107,13 @@ void subtract_known_forces(const Element& element, DisplacementSystem& system) {
       system.b(element.unknown[j]) -= force(j);
 }
 
-void add_triangles(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
-                   DisplacementSystem& system) {
+void add_triangles(const Problem& problem, const CurvedTraces& traces,
+                   const std::map<int, Eigen::Matrix2d>& frame, DisplacementSystem& system) {
   constexpr double rigid = 1e8;
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const Element own =
-        element(problem, system, frame, t, elasticity[problem.mesh.triangle_body[t]]);
+        element(problem, system, traces, frame, t, elasticity[problem.mesh.triangle_body[t]]);
     const auto centre = centre_of(problem.vertices_of(t));
     system.K.add(own.unknown, centre, own.K);
     subtract_known_forces(own, system);
@@ -122,22 +125,24 @@ void add_triangles(const Problem& problem, const std::map<int, Eigen::Matrix2d>&
   }
 }
 
-void subtract_known_forces(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
+void subtract_known_forces(const Problem& problem, const CurvedTraces& traces,
+                           const std::map<int, Eigen::Matrix2d>& frame,
                            DisplacementSystem& system) {
   const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
     if (std::ranges::any_of(triangle_nodes(problem, system.degree, t),
                             [&](int node) { return !system.given.u.col(node).isZero(0); }))
       subtract_known_forces(
-          element(problem, system, frame, t, elasticity[problem.mesh.triangle_body[t]]), system);
+          element(problem, system, traces, frame, t, elasticity[problem.mesh.triangle_body[t]]),
+          system);
 }
 
-void add_loads(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
-               DisplacementSystem& system) {
+void add_loads(const Problem& problem, const CurvedTraces& traces,
+               const std::map<int, Eigen::Matrix2d>& frame, DisplacementSystem& system) {
   if (problem.loads.has_body_force() || problem.loads.traction_MPa)
-    add_nodal(nodal_loads(problem, system.degree), frame, system, system.b);
+    add_nodal(traces.forces(nodal_loads(problem, system.degree)), frame, system, system.b);
   if (!problem.loads.thermal.empty())
-    add_nodal(thermal_forces(problem, system.degree), frame, system, system.b);
+    add_nodal(traces.forces(thermal_forces(problem, system.degree)), frame, system, system.b);
 }
 
 }  // namespace
@@ -150,29 +155,31 @@ std::size_t DisplacementSystem::bytes() const {
 DisplacementSystem assemble_displacement_system(const Problem& problem, int degree) {
   DisplacementSystem system;
   system.degree = degree;
+  const CurvedTraces traces(problem, degree);
   system.control = control_points(problem, degree);
-  system.given = prescribed_displacement(problem, degree);
+  system.given = traces.prescribed();
   const int n = number_unknowns(problem, system);
   const std::map<int, Eigen::Matrix2d> frame = frames(system);
   system.b = Eigen::VectorXd::Zero(n);
   system.K = ElementMatrices(2 * bernstein_count(degree));
   system.K.order = n;
   system.K.reserve(problem.mesh.triangles.size());
-  add_triangles(problem, frame, system);
-  add_loads(problem, frame, system);
+  add_triangles(problem, traces, frame, system);
+  add_loads(problem, traces, frame, system);
   return system;
 }
 
 void set_load_case(const Problem& problem, DisplacementSystem& system) {
+  const CurvedTraces traces(problem, system.degree);
   system.control = control_points(problem, system.degree);
-  system.given = prescribed_displacement(problem, system.degree);
+  system.given = traces.prescribed();
   system.b.setZero();
   const std::map<int, Eigen::Matrix2d> frame = frames(system);
-  subtract_known_forces(problem, frame, system);
-  add_loads(problem, frame, system);
+  subtract_known_forces(problem, traces, frame, system);
+  add_loads(problem, traces, frame, system);
 }
 
-DisplacementField displacement_field(const DisplacementSystem& system,
+DisplacementField displacement_field(const Problem& problem, const DisplacementSystem& system,
                                      const Eigen::VectorXd& unknowns) {
   DisplacementField u = system.given.u;
   const auto set = [&](int node, auto&& components) {
@@ -188,13 +195,15 @@ DisplacementField displacement_field(const DisplacementSystem& system,
     set(node, local);
     u.col(node) = axes * local;
   }
-  return u;
+  return CurvedTraces(problem, system.degree).coefficients(u);
 }
 
 Eigen::VectorXd unbalanced_forces(const Problem& problem, const DisplacementSystem& system,
                                   const NodalForces& of_stresses, const Eigen::VectorXd& F_C) {
   Eigen::VectorXd r = Eigen::VectorXd::Zero(system.b.size());
-  add_nodal(nodal_loads(problem, system.degree) - of_stresses.sum, frames(system), system, r);
+  add_nodal(CurvedTraces(problem, system.degree)
+                .forces(nodal_loads(problem, system.degree) - of_stresses.sum),
+            frames(system), system, r);
   r.tail(system.n_c()) += F_C;
   for (const auto& [node, row] : system.held_tangent) r(row) = 0;  // the roller bears it
   return r;

@@ -10,9 +10,14 @@
 // stiffness_condensation.hpp, and the contact law is that of every other method, with F_C the
 // control points' forces ∫ t B ds.
 //
+// Curved sides are followed (Problem::round): fields stay polynomials in x, integrated up to the
+// curves, and the unknowns on held, rolling and contact sides are traces (curved_traces.hpp), with
+// K_d = D⁻ᵀ K D⁻¹ in their triangles.
+//
 // The displacements are kinematically admissible: u = u0 on Γ_D (u0 is quadratic on every edge) and
-// u_n ≤ g0 everywhere on straight contact faces. The stresses balance in the mean only. For ν → ½
-// these triangles do not lock, but quadratic ones lose an order.
+// u_n ≤ g0 everywhere on straight contact faces; on curves both hold for the interpolant. The
+// stresses balance in the mean only. For ν → ½ these triangles do not lock, but quadratic ones lose
+// an order.
 #pragma once
 
 #include <array>
@@ -20,6 +25,7 @@
 #include <vector>
 
 #include "assembly/control_points.hpp"
+#include "assembly/nodal_forces.hpp"
 #include "solvers/base/element_matrices.hpp"
 
 namespace airybench {
@@ -28,7 +34,7 @@ struct DisplacementSystem {
   static constexpr int prescribed = -1;  // or pinned (free_motions.hpp)
   int degree = 2;                        // p
   ControlPoints control;
-  PrescribedDisplacement given;
+  PrescribedDisplacement given;  // on curves traces, as `control`
   // Per node: the numbers of its two unknowns, x and y; at control points and on rollers normal and
   // tangential.
   std::vector<std::array<int, 2>> unknown;
@@ -46,7 +52,7 @@ DisplacementSystem assemble_displacement_system(const Problem& problem, int degr
 void set_load_case(const Problem& problem, DisplacementSystem& system);
 
 // The coefficients of all nodes, in x and y, from the unknowns.
-DisplacementField displacement_field(const DisplacementSystem& system,
+DisplacementField displacement_field(const Problem& problem, const DisplacementSystem& system,
                                      const Eigen::VectorXd& unknowns);
 
 // What the loads and F_C leave of the nodal forces of the stresses A ε(u), per unknown: not formed

@@ -18,12 +18,13 @@ void finish_displacements(const ContactSystem& given, const RunControl& control,
   finish_in_displacements(
       problem, control, body.condensed, *body.factor,
       [&](const Eigen::VectorXd& unknowns) {
-        DisplacementField w = displacement_field(body.system, unknowns);
-        solution.stress = stress_of_displacement(problem, w);
+        DisplacementField w = displacement_field(problem, body.system, unknowns);
+        solution.stress = own_stress(problem, w);
         solution.unknowns = Displacements{std::move(w)};
       },
       [&] {
-        const NodalForces forces = nodal_forces(problem, solution.stress);
+        const NodalForces forces =
+            nodal_forces(problem, std::get<Displacements>(solution.unknowns).w);
         return UnbalancedForces{
             unbalanced_forces(problem, body.system, forces, solution.F_C), forces.largest, {}, 0};
       },

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "assembly/control_points.hpp"
+#include "assembly/nodal_forces.hpp"
 #include "assembly/total_displacement.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/exact_fields.hpp"

@@ -77,10 +77,10 @@ DisplacementField between_values_of(const Function& u, const Problem& problem) {
   system.given.u = testing::interpolated(problem, p, u);
   for (std::size_t node = 0; node < system.given.at.size(); ++node)
     if (!system.given.at[node]) system.given.u.col(static_cast<Eigen::Index>(node)).setZero();
-  const Eigen::VectorXd b = unbalanced_forces(
-      problem, system, nodal_forces(problem, stress_of_displacement(problem, system.given.u)), {});
+  const Eigen::VectorXd b =
+      unbalanced_forces(problem, system, nodal_forces(problem, system.given.u), {});
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(lower_triangle(system.K));
-  return displacement_field(system, factor.solve(b));
+  return displacement_field(problem, system, factor.solve(b));
 }
 
 Problem held_all_around(int cells, double nu) {

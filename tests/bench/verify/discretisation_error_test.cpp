@@ -267,7 +267,7 @@ TEST(DisplacementVerifier, LeavesAProgramTheDirectionOfTheForceInACornerOfTwoWal
       w.col(node) = gradient * at;
     }
     solution.stress = stress_of_displacement(*problem, w);
-    solution.F_C = contact_reactions(*problem, control_points(*problem), solution.stress);
+    solution.F_C = contact_reactions(*problem, control_points(*problem), w);
     solution.unknowns = Displacements{w};
     if (is_of_program) std::get<Displacements>(solution.unknowns).by_program.emplace();
     return *verify_displacement(system, solution).equilibrium_residual;

@@ -2,69 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
-#include "assembly/elements/elasticity.hpp"
 #include "bench/verify/reference.hpp"
 #include "bench/verify/verifier.hpp"
-#include "mesh/arcs.hpp"
+#include "tests/bench/verify/round_bodies.hpp"
 #include "tests/bench/verify/solved.hpp"
-#include "tests/bench/verify/true_error.hpp"
-#include "tests/support/small_meshes.hpp"
 
 namespace airybench::round_sides_test {
 namespace {
 
-using testing::ExactStress, testing::from_polar, testing::true_error, testing::value_at;
+using testing::ExactStress, testing::pressed, testing::quarter, testing::Rim,
+    testing::RingInASocket, testing::stretched, testing::true_error, testing::value_at;
 using Point = Eigen::Vector2d;
-
-// Tension 1 MPa along x far away, a free hole of radius 1 mm (Kirsch 1898).
-Eigen::Vector3d stretched(const Point& x) {
-  const double q = 1 / x.squaredNorm(), two = 2 * std::atan2(x.y(), x.x());
-  return from_polar((1 - q + (1 - 4 * q + 3 * q * q) * std::cos(two)) / 2,
-                    (1 + q - (1 + 3 * q * q) * std::cos(two)) / 2,
-                    -(1 + 2 * q - 3 * q * q) * std::sin(two) / 2, x);
-}
-
-// A pressure of 1 MPa in the hole of a ring from 1 to 2 mm, its rim free (Lamé).
-Eigen::Vector3d pressed(const Point& x) {
-  const double q = 4 / x.squaredNorm();
-  return from_polar((1 - q) / 3, (1 + q) / 3, 0, x);
-}
-
-// Its displacement with 1000 MPa.
-Point widened(const Point& x, double poisson) {
-  const double shear = 1000 / (2 * (1 + poisson));
-  return ((1 - 2 * poisson) + 4 / x.squaredNorm()) / (6 * shear) * x;
-}
-
-Mesh with_rim(Mesh mesh, BoundaryRole role) {
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (boundary_label(mesh, edge) == "force:rim") edge.role = role;
-  return mesh;
-}
-
-enum class Rim { loaded, held, rolling };
-
-// With the tractions of the exact stress on both circles, rollers on the straight sides.
-Problem quarter(int around, int across, double outer_mm, const ExactStress& exact, double poisson,
-                Rim rim = Rim::loaded) {
-  Mesh mesh = testing::quarter_ring(around, across, 1, outer_mm);
-  EXPECT_EQ(recognise_arcs(mesh), 2 * around);
-  Loads loads;
-  for (const BoundaryEdge& edge : mesh.boundary)
-    loads.rollers.push_back(edge.role == BoundaryRole::displacement ||
-                            (rim == Rim::rolling && boundary_label(mesh, edge) == "force:rim"));
-  if (rim != Rim::loaded) {
-    mesh = with_rim(std::move(mesh), BoundaryRole::displacement);
-    loads.displacement_mm = [poisson](const Point& x, int) { return widened(x, poisson); };
-  }
-  loads.traction_MPa = [exact](const Point& x, const Point& n, int) {
-    return traction(exact(x), n);
-  };
-  return make_problem(std::move(mesh), {compliance({1000, poisson}, Plane::strain)},
-                      std::move(loads), 0);
-}
 
 struct Judged {
   double truth, total;
@@ -156,34 +105,18 @@ TEST(RoundSides, RollersThatAloneWouldLetTheBodyTurnAreChords) {
   }
 }
 
-// A ring of 1 to 2 mm in a socket that is 2 µm too small: the pressure is the same everywhere.
 TEST(RoundSides, ARingInASocketIsOfFullOrder) {
-  constexpr double young = 1000, poisson = 0.3, too_small = 0.002;
-  constexpr double pressure =
-      too_small * young * 3 / ((1 + poisson) * 2 * ((1 - 2 * poisson) * 4 + 1));
-  const auto exact = [](const Point& x) {
-    const double q = 1 / x.squaredNorm();
-    return from_polar(-pressure * 4 / 3 * (1 - q), -pressure * 4 / 3 * (1 + q), 0, x);
-  };
-  Scene scene;
-  scene.material = {young, poisson};
-  scene.wall = CircularWall{{0, 0}, 2 - too_small, CircularWall::Bodies::inside};
-  scene.displacement_mm = {0, 0};
-  for (const char* side : {"displacement:bottom", "displacement:left"})
-    scene.boundary[side].support = BoundaryValues::Support::normal;
   for (const double friction : {0., 0.2})
     for (int degree = 2; degree <= highest_stress_degree; ++degree) {
       SCOPED_TRACE(::testing::Message() << "degree " << degree << ", friction " << friction);
-      scene.friction = friction;
       std::vector<double> truth, of_pressure;
       for (const int around : {4, 8}) {
-        Mesh mesh = testing::quarter_ring(around, around / 2, 1, 2);
-        EXPECT_EQ(recognise_arcs(mesh), 2 * around);
-        const testing::Solved solved(scene, with_rim(std::move(mesh), BoundaryRole::contact),
+        const testing::Solved solved(RingInASocket::scene(friction), RingInASocket::mesh(around),
                                      degree);
         const ConstitutiveError error = solved.error();
         EXPECT_EQ(error.flaw, "");
-        truth.push_back(true_error(*solved.system.problem, solved.hybrid.stress, exact));
+        truth.push_back(
+            true_error(*solved.system.problem, solved.hybrid.stress, RingInASocket::exact));
         EXPECT_GT(error.relative, truth.back());
         EXPECT_LT(error.relative, 2.5 * truth.back());
         const ContactPoints& points = solved.system.contact;
@@ -193,9 +126,9 @@ TEST(RoundSides, ARingInASocketIsOfFullOrder) {
                                                                          p % points.per_edge);
           worst = std::max(worst, std::abs(-(degree + 1) / frame.length_mm *
                                                solved.hybrid.F_C(points.components * p) -
-                                           pressure));
+                                           RingInASocket::pressure));
         }
-        of_pressure.push_back(worst / pressure);
+        of_pressure.push_back(worst / RingInASocket::pressure);
       }
       EXPECT_GT(std::log2(truth[0] / truth[1]), degree + 0.7);
       EXPECT_GT(std::log2(of_pressure[0] / of_pressure[1]), degree + 0.5);

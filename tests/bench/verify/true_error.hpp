@@ -1,9 +1,10 @@
 // The distance of stresses from a closed form.
 #pragma once
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "assembly/stress_field.hpp"
 
@@ -31,38 +32,30 @@ inline Eigen::Vector3d value_at(const StressField& stress, std::size_t t, int th
   return value;
 }
 
-// ‖σ − exact‖ / ‖exact‖ over the straight triangles.
+// ‖σ − exact‖ / ‖exact‖ over the body, up to the curves that the stresses follow.
 inline double true_error(const Problem& problem, const StressField& stress,
                          const ExactStress& exact) {
-  using Points = boost::math::quadrature::gauss<double, 7>;
+  using Side = CurvedSide<double>;
+  const int k = stress.degree(), n = bernstein_count(k);
   double error = 0, norm = 0;
-  for (std::size_t t = 0; t < stress.size(); ++t) {
-    const TriangleVertices v = problem.vertices_of(static_cast<int>(t));
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    const TriangleVertices v = problem.vertices_of(t);
     const Eigen::Vector2d centroid = v.rowwise().mean();
-    const Eigen::Matrix3d& C = problem.compliance_of(static_cast<int>(t));
+    const Eigen::Matrix3d& C = problem.compliance_of(t);
+    const CurvedSides curves = problem.curves_of(t, k).value_or(CurvedSides{});
     for (int third = 0; third < 3; ++third) {
-      const Eigen::Vector2d a = v.col(third), d = v.col((third + 1) % 3);
-      const double area = problem.area_mm2(static_cast<int>(t)) / 3;
-      const auto integral = [&](auto value) {
-        return 2 * area *
-               Points::integrate(
-                   [&](double c) {
-                     return (1 - c) * Points::integrate(
-                                          [&](double s) {
-                                            const double b = s * (1 - c);
-                                            const Eigen::Vector2d x =
-                                                (1 - b - c) * a + b * d + c * centroid;
-                                            const Eigen::Vector3d of = value(x, b, c);
-                                            return of.dot(C * of);
-                                          },
-                                          0., 1.);
-                   },
-                   0., 1.);
-      };
-      error += integral([&](const Eigen::Vector2d& x, double b, double c) {
-        return Eigen::Vector3d(value_at(stress, t, third, b, c) - exact(x));
-      });
-      norm += integral([&](const Eigen::Vector2d& x, double, double) { return exact(x); });
+      const std::vector<Eigen::Vector2d> chord = {v.col(third), v.col((third + 1) % 3)};
+      const Side side(
+          {curves[third].is_straight() ? std::span(chord) : curves[third].points_mm, {}, {}}, k);
+      const auto own = stress[static_cast<std::size_t>(t)].middleCols(n * third, n);
+      for (int q = 0; q < Side::points; ++q)
+        for (int l = 0; l < Side::layers; ++l) {
+          const auto [rho, area] = side.layer(centroid, q, l);
+          const Eigen::Vector3d truth = exact(centroid + rho * (side.at(q) - centroid)),
+                                off = own * side.bernstein(centroid, q, rho) - truth;
+          error += area * off.dot(C * off);
+          norm += area * truth.dot(C * truth);
+        }
     }
   }
   return std::sqrt(error / norm);

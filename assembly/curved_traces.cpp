@@ -1,4 +1,4 @@
-#include "bench/verify/curved_traces.hpp"
+#include "assembly/curved_traces.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -14,7 +14,9 @@ namespace {
 // The zeros of P_p′ and the ends, on [0, 1].
 std::vector<double> gauss_lobatto_points(int p) {
   std::vector<double> inner;
-  if (p == 3) {
+  if (p == 2) {
+    inner = {0};
+  } else if (p == 3) {
     inner = {std::sqrt(1. / 5)};
   } else if (p == 4) {
     inner = {0, std::sqrt(3. / 7)};
@@ -51,20 +53,6 @@ const Eigen::MatrixXd& differentiation() {
   return matrix;
 }
 
-// The polynomials of a triangle's nodes at x, beyond its sides, too.
-Eigen::VectorXd values_at(const DisplacementTriangle& element, const TriangleShape& shape,
-                          const Eigen::Vector2d& from_first) {
-  const Eigen::Vector2d xi = shape.gradients.transpose().lazyProduct(from_first);
-  const std::array<double, 3> lambda = {1 - xi.x() - xi.y(), xi.x(), xi.y()};
-  Eigen::VectorXd values(element.nodes);
-  for (int m = 0; m < element.nodes; ++m) {
-    const auto& [a, b, c] = element.exponents[m];
-    values(m) = binomial(element.degree, a) * binomial(b + c, b) * std::pow(lambda[0], a) *
-                std::pow(lambda[1], b) * std::pow(lambda[2], c);
-  }
-  return values;
-}
-
 bool has_traces(const Problem& problem, int row) {
   return row != Problem::no_row && problem.mesh.boundary[row].role != BoundaryRole::force;
 }
@@ -76,14 +64,9 @@ DisplacementTriangle::Stiffness CurvedTraces::Map::of_traces(
   return to_coefficients.transpose().lazyProduct(K.lazyProduct(to_coefficients).eval());
 }
 
-CurvedTraces CurvedTraces::on_chords(const Problem& problem, int degree) {
-  return {problem, degree, Chords{}};
-}
-
-CurvedTraces::CurvedTraces(const Problem& problem, int degree)
-    : CurvedTraces(problem, degree, Chords{}) {
-  const int k = degree - 1;
-  if (k < 2) return;
+CurvedTraces::CurvedTraces(const Problem& problem, int degree, Sides sides)
+    : problem_(problem), degree_(degree) {
+  if (problem.round.empty() || sides == Sides::chords) return;
   const auto& element = DisplacementTriangle::of_degree(degree);
   const std::vector<double> points = gauss_lobatto_points(degree);
   Eigen::MatrixXd bernstein(degree + 1, degree + 1);
@@ -97,7 +80,7 @@ CurvedTraces::CurvedTraces(const Problem& problem, int degree)
     for (int e = 0; e < 3; ++e) {
       const int row = round.rows[e];
       if (!has_traces(problem, row)) continue;
-      const SideCurve curve = problem.curve_of(row, k);
+      const SideCurve curve = problem.curve_of(row, degree);
       Side& side = sides_[row];
       for (int q = 0; q <= degree; ++q) {
         const CurvePoint<double> point(curve, points[q]);
@@ -115,7 +98,7 @@ CurvedTraces::CurvedTraces(const Problem& problem, int degree)
         auto rows = D->middleRows<2>(2 * element.on_edge(e, i));
         rows.setZero();
         for (int q = 0; q <= degree; ++q) {
-          const Eigen::VectorXd value = values_at(element, shape, side.at[q] - v.col(0));
+          const Eigen::VectorXd value = element.values(shape, side.at[q] - v.col(0));
           const Eigen::Matrix2d turn =
               to_bernstein_(i, q) * side.of_coefficients[i].lazyProduct(side.frames[q].transpose());
           for (int m = 0; m < element.nodes; ++m) rows.middleCols<2>(2 * m) += value(m) * turn;
@@ -136,7 +119,6 @@ const CurvedTraces::Side* CurvedTraces::side_of(int row) const {
   return found == sides_.end() ? nullptr : &found->second;
 }
 
-// Triangles share no node that changes.
 DisplacementField CurvedTraces::mapped(const DisplacementField& field,
                                        Eigen::MatrixXd Map::*map) const {
   DisplacementField result = field;
@@ -148,6 +130,26 @@ DisplacementField CurvedTraces::mapped(const DisplacementField& field,
       result.col(nodes[m]) = changed.segment<2>(2 * static_cast<Eigen::Index>(m));
   }
   return result;
+}
+
+Eigen::Matrix2Xd CurvedTraces::forces(Eigen::Matrix2Xd of_coefficients) const {
+  for (const auto& [t, maps] : maps_) {
+    const auto nodes = triangle_nodes(problem_, degree_, t);
+    const Eigen::VectorXd changed = maps.to_coefficients.transpose().lazyProduct(
+        of_triangle(problem_, degree_, of_coefficients, t).reshaped());
+    for (std::size_t m = 0; m < nodes.size(); ++m)
+      of_coefficients.col(nodes[m]) = changed.segment<2>(2 * static_cast<Eigen::Index>(m));
+  }
+  return of_coefficients;
+}
+
+Eigen::Matrix2Xd CurvedTraces::traces_on(int row, const AlongCurve& u) const {
+  if (const Side* side = side_of(row)) return interpolant(*side, u);
+  const auto [start, end] = problem_.mesh.boundary[row].vertices;
+  const auto &a = problem_.mesh.vertices[start], &b = problem_.mesh.vertices[end];
+  Eigen::Matrix2Xd d(2, degree_ + 1);
+  for (int i = 0; i <= degree_; ++i) d.col(i) = u(a + i * (b - a) / degree_);
+  return d;
 }
 
 Eigen::Matrix2Xd CurvedTraces::interpolant(const Side& side, const AlongCurve& u) const {
@@ -185,7 +187,7 @@ PrescribedDisplacement CurvedTraces::prescribed() const {
 
 double CurvedTraces::squared_distance(int triangle, const StressCoefficients& stress,
                                       const DisplacementTriangle::Displacement& w) const {
-  using Sides = CurvedSide<double>;
+  using Points = CurvedSide<double>;
   const int k = degree_ - 1;
   const Eigen::Index third = bernstein_count(k);
   const auto& element = DisplacementTriangle::of_degree(degree_);
@@ -194,7 +196,7 @@ double CurvedTraces::squared_distance(int triangle, const StressCoefficients& st
   const Eigen::Vector2d centroid = v.rowwise().mean();
   const Eigen::Matrix3d& compliance = problem_.compliance_of(triangle);
   const Eigen::Matrix3d elasticity = elasticity_of(compliance);
-  const CurvedSides curves = *problem_.curves_of(triangle, k);
+  const CurvedSides curves = *problem_.curves_of(triangle, degree_);
   const Eigen::Matrix2Xd d =
       maps_.at(triangle).to_traces.lazyProduct(w.reshaped()).reshaped(2, w.cols());
   const Problem::RoundTriangle& round =
@@ -203,24 +205,24 @@ double CurvedTraces::squared_distance(int triangle, const StressCoefficients& st
   for (int e = 0; e < 3; ++e) {
     const std::vector<Eigen::Vector2d> chord = {v.col(e), v.col((e + 1) % 3)};
     const SideCurve curve = curves[e].is_straight() ? SideCurve{chord, {}, {}} : curves[e];
-    const Sides side(curve, k);
+    const Points side(curve, k);
     // What w is more on the side than the interpolant, and its derivative.
-    Eigen::MatrixX2d more = Eigen::MatrixX2d::Zero(Sides::points, 2), slope = more;
+    Eigen::MatrixX2d more = Eigen::MatrixX2d::Zero(Points::points, 2), slope = more;
     if (has_traces(problem_, round.rows[e])) {
       const Side& own = *side_of(round.rows[e]);
-      for (int q = 0; q < Sides::points; ++q) {
+      for (int q = 0; q < Points::points; ++q) {
         Eigen::Vector2d interpolated = Eigen::Vector2d::Zero();
         for (int i = 0; i <= degree_; ++i)
-          interpolated += bernstein_polynomial(degree_, i, Sides::xi(q)) *
+          interpolated += bernstein_polynomial(degree_, i, Points::xi(q)) *
                           (own.of_coefficients[i].transpose() * d.col(element.on_edge(e, i)));
-        more.row(q) = w.lazyProduct(values_at(element, shape, side.at(q) - v.col(0))) -
-                      CurvePoint<double>(curve, Sides::xi(q)).frame.lazyProduct(interpolated);
+        more.row(q) = w.lazyProduct(element.values(shape, side.at(q) - v.col(0))) -
+                      CurvePoint<double>(curve, Points::xi(q)).frame.lazyProduct(interpolated);
       }
       slope = differentiation().lazyProduct(more);
     }
     const auto of_third = stress.middleCols(third * e, third);
-    for (int q = 0; q < Sides::points; ++q)
-      for (int l = 0; l < Sides::layers; ++l) {
+    for (int q = 0; q < Points::points; ++q)
+      for (int l = 0; l < Points::layers; ++l) {
         const auto [rho, area] = side.layer(centroid, q, l);
         Eigen::Matrix2d J, gradient;  // of x, and of ρ² times what is more, to ρ and ξ
         J << side.at(q) - centroid, rho * Eigen::Vector2d(-side.normal(q).y(), side.normal(q).x());
