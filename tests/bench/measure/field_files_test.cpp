@@ -16,6 +16,7 @@
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
 #include "tests/bench/measure/csv_columns.hpp"
+#include "tests/bench/verify/round_bodies.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/places.hpp"
@@ -302,6 +303,28 @@ TEST(FieldFiles, WhatIsNotKnownIsLeftOut) {
   EXPECT_FALSE(testing::contains(testing::text_of(folder / "a.vtu"), "displacement_mm"));
   EXPECT_EQ(numbers(read_csv(folder / "a.contact.csv"), "slip_mm").size(),
             static_cast<std::size_t>(solved.system.contact.count));
+}
+
+// A ring in its socket: points on the circle, with the pressure of the stresses there.
+TEST(FieldFiles, ContactOfDisplacementsIsThatOfTheCurve) {
+  using testing::RingInASocket;
+  struct Off {
+    const char* name;
+    double pressure, gap_mm;
+  };
+  for (const auto& [name, pressure, gap_mm] : {Off{"P2", 0.2, 1e-5}, Off{"P3", 0.03, 1e-12}}) {
+    SCOPED_TRACE(name);
+    const Solved solved(pose(RingInASocket::scene(0), RingInASocket::mesh(8)), name);
+    const ContactPicture picture = solved.contact();
+    EXPECT_EQ(picture.per_edge, 3u);
+    ASSERT_EQ(picture.at_mm.size(), 3u * 8);
+    for (std::size_t i = 0; i < picture.at_mm.size(); ++i) {
+      EXPECT_NEAR(picture.at_mm[i].norm(), 2, 1e-9);
+      EXPECT_NEAR(-3 * picture.force[i].x() / picture.frame[i].length_mm, RingInASocket::pressure,
+                  pressure * RingInASocket::pressure);
+      EXPECT_NEAR(picture.gap_mm[i], 0, gap_mm);
+    }
+  }
 }
 
 }  // namespace
