@@ -41,8 +41,8 @@ struct GeometryError {
 };
 GeometryError geometry_error(const Problem& problem, const StressField& stress);
 
-// The groups, and the lines between materials, with curved sides that stresses or displacements of a
-// degree take as chords, and how far these are off (curved_groups.hpp); empty: there are none.
+// The groups, and the lines between materials, with curved sides that stresses or displacements of
+// a degree take as chords, and how far these are off (curved_groups.hpp); empty: there are none.
 std::string polygon_groups(const Problem& problem, int degree);
 
 }  // namespace airybench
