@@ -69,6 +69,10 @@ void write(const DiscretisationError& error, Record& record) {
   record.no_discretisation_error = total.flaw().empty() ? error.missing : total.flaw();
   if (total.of_mesh()) record.discretisation_by = error.by;
   if (total.geometry() > 0) record.error_geometry = total.geometry();
+  if (total.sliding().mm > 0) {
+    record.slide_mm = total.sliding().mm;
+    record.slide_turn = total.sliding().turn;
+  }
   if (error.relative_of_mean)
     record.error_mean = *error.relative_of_mean + record.error_stress.value_or(0) / 2;
   if (!error.of_steps.empty()) {

@@ -203,7 +203,6 @@ const std::vector<StepResult>* Judge::half_steps(int degree) {
 
 Verdict Judge::judge_total_error(const Method& method, Verdict so_far,
                                  const CaseResult& result) const {
-  constexpr double max_turn = 0.1;
   const TotalError& total = result.of_mesh.total;
   if (const std::optional<double> error = total.of_mesh(); is_all_error(error))
     return {Status::inaccurate,
@@ -212,7 +211,7 @@ Verdict Judge::judge_total_error(const Method& method, Verdict so_far,
                                     : fmt::format("its total error is {:.0f} %: nothing of it is "
                                                   "known",
                                                   100 * *error))};
-  if (const Sliding& slid = total.sliding(); slid.turn > max_turn)
+  if (const Sliding& slid = total.sliding(); slid.turn > max_slide_turn)
     return {
         Status::inaccurate,
         fmt::format("a face slides {:.3g} mm along another, whose normal turns by {:.2g}° on the "

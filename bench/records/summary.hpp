@@ -7,6 +7,10 @@ namespace airybench {
 
 void summarise(Record& record);
 
+// By which a contact law's normal may turn where a face slides (Sliding); beyond, small
+// displacements do not hold, whatever the method.
+inline constexpr double max_slide_turn = 0.1;
+
 // If the method claims ok and the verifier disagrees: "wrong_success", or "unverified" without an
 // error_stress. A discretisation error above 1 alone does not count. Else status, or the
 // judge's other_solution.

@@ -258,8 +258,9 @@ TEST(FieldFiles, ThirdsOfHigherDegreesAreLagrangeTrianglesOnTheCurve) {
   const auto x = numbers(edges, "x1_mm"), y = numbers(edges, "y1_mm"),
              tx = numbers(edges, "t1_x_MPa"), ty = numbers(edges, "t1_y_MPa");
   for (std::size_t k = 0; k < x.size(); ++k)
-    if (std::hypot(x[k], y[k]) < 2)
+    if (std::hypot(x[k], y[k]) < 2) {
       EXPECT_LT(std::hypot(tx[k] - 10 * x[k], ty[k] - 10 * y[k]), 1e-6);
+    }
   const int code = read_back(folder.path(), "a");
   if (code == 77) GTEST_SKIP() << "no VTK for Python here (Debian: python3-vtk9)";
   EXPECT_EQ(code, 0);
