@@ -130,6 +130,16 @@ TEST_P(RoundDisplacements, HaveTheLoadsOfTheCurves) {
   EXPECT_GT((of_weight - between_chords).norm(), 0.01);
 }
 
+// It expands without stress, up to its curves.
+TEST_P(RoundDisplacements, OfAWarmBodyHaveItsLoadsStresses) {
+  Problem problem = quarter(4, 2, 2, pressed, 0.3, Rim::loaded);
+  const StressField cold = solved(problem).solution.stress;
+  problem.loads.thermal = {{.at_origin = 1e-3}};
+  const StressField warm = solved(problem).solution.stress;
+  EXPECT_LT(stress_distance(problem, warm, cold),
+            1e-11 * std::sqrt(stress_norm_squared(problem, cold)));
+}
+
 // A ring that only its socket holds, under its own weight and a pull in its hole.
 TEST_P(RoundDisplacements, OfAFreeBodyAreInBalance) {
   Mesh mesh = testing::with_role(testing::small_ring(20, 3, 1, 3), BoundaryRole::displacement,
