@@ -34,16 +34,22 @@ void leave_out_branches(Interface& interface) {
 
 std::vector<Interface> interfaces(const Mesh& mesh, const MeshEdges& edges) {
   if (mesh.body_names.size() < 2) return {};
-  std::vector<std::vector<TriangleSide>> of_edge(static_cast<std::size_t>(edges.count()));
+  constexpr TriangleSide none = {-1, 0};
+  std::vector<std::array<TriangleSide, 2>> of_edge(static_cast<std::size_t>(edges.count()),
+                                                   {none, none});
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-    for (int k = 0; k < 3; ++k) of_edge[edges.of_triangle[t][k]].push_back({t, k});
+    for (int k = 0; k < 3; ++k) {
+      std::array<TriangleSide, 2>& sides = of_edge[edges.of_triangle[t][k]];
+      sides[sides[0].triangle >= 0 ? 1 : 0] = {t, k};
+    }
   std::map<std::array<int, 2>, Interface> found;
   std::map<std::array<int, 2>, std::map<int, int>> numbers;  // of vertices
-  for (std::vector<TriangleSide>& sides : of_edge) {
+  for (std::array<TriangleSide, 2>& sides : of_edge) {
+    if (sides[1].triangle < 0) continue;
     const auto body = [&](const TriangleSide& side) { return mesh.triangle_body[side.triangle]; };
-    if (sides.size() != 2 || body(sides[0]) == body(sides[1])) continue;
     if (body(sides[0]) > body(sides[1])) std::swap(sides[0], sides[1]);
     const std::array<int, 2> bodies = {body(sides[0]), body(sides[1])};
+    if (bodies[0] == bodies[1]) continue;
     Interface& interface = found[bodies];
     const auto number = [&](int vertex) {
       auto& vertices = interface.line.vertices;
@@ -55,7 +61,7 @@ std::vector<Interface> interfaces(const Mesh& mesh, const MeshEdges& edges) {
     const auto& [t, k] = sides[0];
     const int start = number(mesh.triangles[t][k]), end = number(mesh.triangles[t][(k + 1) % 3]);
     interface.line.boundary.push_back({{start, end}, BoundaryRole::force});
-    interface.sides.push_back({sides[0], sides[1]});
+    interface.sides.push_back(sides);
   }
   std::vector<Interface> list;
   for (auto& [bodies, interface] : found) {

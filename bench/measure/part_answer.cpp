@@ -60,7 +60,8 @@ class PartReader {
     std::array<double, 2> least = {infinity, infinity};  // that may be the largest
     for (const auto& [largest, from] :
          {std::pair(&judged.first, &least[0]), {&judged.second, &least[1]}})
-      if (const double value = std::abs(largest->value); largest->off_MPa && value > 0) {
+      if (const double value = std::abs(largest->value);
+          largest->off_MPa && value > 0 && !is_at_circle(largest->at_mm)) {
         doubt.relative = std::max(doubt.relative, *largest->off_MPa / value);
         *from = value - *largest->off_MPa;
       }
@@ -248,6 +249,12 @@ class PartReader {
     return both;
   }
 
+  // Where a stress that falls from a singular place on is largest.
+  bool is_at_circle(const Eigen::Vector2d& x) const {
+    return std::ranges::any_of(singular_, [&](const SingularPlace& place) {
+      return (place.at_mm - x).norm() < 2 * place.within_mm;
+    });
+  }
   std::vector<const SingularPlace*> places_near(int triangle) const {
     const TriangleVertices v = problem_.vertices_of(triangle);
     const Eigen::Vector2d centroid = v.rowwise().mean();

@@ -68,7 +68,7 @@ struct StressDoubt {
   double relative = 0;         // off_MPa over the value: the worse of von Mises and principal
   std::vector<int> triangles;  // with stresses within off_MPa of the largest
 };
-// Empty: nothing is known.
+// Of those that do not lie at the circle of a singular place; empty: both do, or nothing is known.
 std::optional<StressDoubt> stress_doubt(const SolvedFields& fields);
 
 Json to_json(const PartAnswer& answer);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "solvers/contact/coulomb_law.hpp"
+#include "bench/verify/verifier.hpp"
 
 namespace airybench {
 namespace {
@@ -111,11 +111,19 @@ std::vector<SingularPlace> singular_places(const ContactSystem& system, int degr
   }
   const Wedges wedges(system, degree, F_C);
   std::vector<SingularPlace> places;
+  std::vector<int> piece_of;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const int vertex = mesh.boundary[row].vertices[0], piece = pieces.of_vertex[vertex];
-    if (const auto what = wedges.what_is_singular(before.at(vertex), row))
-      places.push_back({mesh.vertices[vertex], *what, area[piece] / perimeter[piece] / 10});
+    const auto what = wedges.what_is_singular(before.at(vertex), row);
+    if (!what) continue;
+    places.push_back({mesh.vertices[vertex], *what, area[piece] / perimeter[piece] / 10});
+    piece_of.push_back(piece);
   }
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (std::size_t other = 0; other < places.size(); ++other)
+      if (const double apart = (places[k].at_mm - places[other].at_mm).norm();
+          apart > 0 && piece_of[k] == piece_of[other])
+        places[k].within_mm = std::min(places[k].within_mm, apart / 20);
   return places;
 }
 

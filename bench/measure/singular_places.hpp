@@ -3,7 +3,8 @@
 // one of them is held along its normal only, as half of a wedge of twice the angle.
 //
 // Each has a circle around it, outside of which a largest stress is the same on every mesh. Its
-// radius is a tenth of the piece's area over its perimeter, 5 % of the width of a long strip.
+// radius is a tenth of the piece's area over its perimeter, 5 % of the width of a long strip, but
+// at most 5 % of the way to the piece's nearest other place.
 #pragma once
 
 #include <string>

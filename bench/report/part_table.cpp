@@ -121,8 +121,9 @@ void add_unbounded_line(const Json& places, PartReport& report) {
     text += fmt::format("{}{}{}: {}", text.empty() ? "" : "; ", fmt::join(all, ", "),
                         more > 0 ? fmt::format(" and {} more", more) : "", what);
   }
-  report.emplace_back(fmt::format(
-      "stress unbounded at {} (largest: of what is more than {:.2g} mm away)", text, within_mm));
+  report.emplace_back(
+      fmt::format("stress unbounded at {} (largest: outside circles of up to {:.2g} mm there)",
+                  text, within_mm));
 }
 
 void add_stress_lines(const Json& part, PartReport& report) {

@@ -62,7 +62,7 @@ TEST_F(SolveCommand, ACantileverBendsAsABeam) {
   ASSERT_EQ(answer["unbounded"].size(), 2u);
   EXPECT_EQ(answer["unbounded"][0]["what"], "the end of displacement:Nfix");
   EXPECT_TRUE(
-      says("stress unbounded at (0, 0), (0, 4): the end of displacement:Nfix (largest: of"));
+      says("stress unbounded at (0, 0), (0, 4): the end of displacement:Nfix (largest: outside"));
   const Json& bending = answer["principal_MPa"];  // tension above, pressure below
   EXPECT_NEAR(std::abs(bending["value"].get<double>()), 10 * 20 * 2 / I, 0.3 * 75);
   EXPECT_LT(bending["off"].get<double>(), 0.1 * 75);
@@ -181,7 +181,7 @@ INSTANTIATE_TEST_SUITE_P(Of, SolvedPart,
 // Its slip, 4 (1 − ν²)/E σ sin ψ (cos ψ − μ sin ψ) b in the middle.
 TEST_F(SolveCommand, ACrackSlipsByTheClosedForm) {
   const std::string file = (testing::source_folder() / "docs/bodies/crack").string();
-  solved(fmt::format("{0}.geo {0}.json", file));
+  solved(fmt::format("{0}.geo {0}.json --error=0.2%", file));
   double slip_mm = 0;
   for (const auto& found : std::filesystem::directory_iterator(bench_.path("o/fields")))
     if (found.path().string().ends_with(".contact.csv")) {

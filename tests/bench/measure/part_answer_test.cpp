@@ -162,7 +162,7 @@ TEST(PartTable, NamesPlacesOfUnboundedStressByWhatTheyAre) {
   EXPECT_TRUE(testing::contains(
       report(),
       "stress unbounded at (1, 1), (2, 1), (3, 1) and 1 more: a re-entrant corner; (0, 1): the end "
-      "of displacement:foot (largest: of what is more than 0.52 mm away)\n"));
+      "of displacement:foot (largest: outside circles of up to 0.52 mm there)\n"));
 }
 
 // The corners of a hole and the ends of the root.
