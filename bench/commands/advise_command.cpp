@@ -88,7 +88,7 @@ struct Advice {
   std::string basis, command;
 
   bool meets(double error) const {
-    return record.status == Status::ok && record.error_total && *record.error_total <= error;
+    return record.status == Status::ok && airybench::meets(record.error_total, error);
   }
   double whole_time_s() const {
     return record.time_s.value_or(INFINITY) + record.adapt_time_s.value_or(0);

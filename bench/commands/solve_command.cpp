@@ -230,7 +230,7 @@ std::optional<Solved> solved(const PosedScene& start, Options options, const Goa
     answer = solved_to(start, options);
     if (!answer || !answer->short_of.empty()) return answer;
     const std::optional<double> width = reached(*answer, goal.of).error;
-    if (!width || *width <= goal.error) return answer;
+    if (!width || meets(width, goal.error)) return answer;
     double& error = *options.run.adapt.goals.front().error;
     error *= std::max(smallest_step, margin * std::min(goal.error / *width, 1.));
   }
@@ -255,7 +255,7 @@ int solve_command(int argc, const char* const* argv) {
   const std::string assumptions = assumptions_of(*start.body());
   PartReport report = part_report(record, answer->part);
   const Reached now = reached(*answer, goal.of);
-  const bool is_met = now.error && *now.error <= goal.error && record.status == Status::ok;
+  const bool is_met = meets(now.error, goal.error) && record.status == Status::ok;
   if (!is_met && record.status == Status::ok)
     report.emplace_back(fmt::format("note: the error asked for, {:g} %, is not met: {}",
                                     100 * goal.error, text_of(now)));

@@ -68,8 +68,8 @@ struct CaseResult {
   Verdict verdict;
   std::vector<double> assembly_samples_s = {};
   Search search = {};
-  // Empty: nothing was solved. examine() returns it without its arrays, as the memory run shall
-  // begin without them.
+  // Empty: nothing was solved. Without its arrays once examine() ends, so that the memory run
+  // begins without them.
   std::optional<Solution> solution = {};
   std::vector<JudgedStep> steps = {};  // of a path every step that it reached
   // The judge's, of an answer:

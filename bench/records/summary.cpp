@@ -93,9 +93,13 @@ bool times_tie(const Record& a, const Record& b) {
          *b.time_low_s <= *a.time_high_s;
 }
 
-bool misses_goal(const Record& r) {
+bool meets(const std::optional<double>& error, double goal) {
   constexpr double rounding = 1e-6;
-  return r.adapt_goal && r.error_total && *r.error_total > (1 + rounding) * *r.adapt_goal;
+  return error && *error <= (1 + rounding) * goal;
+}
+
+bool misses_goal(const Record& r) {
+  return r.adapt_goal && r.error_total && !meets(r.error_total, *r.adapt_goal);
 }
 
 std::optional<double> precision_of(const Record& record) {

@@ -25,6 +25,8 @@ inline bool is_all_error(const std::optional<double>& error) {
   return error && !(*error < 1 - 1e-9);  // NaN: nothing is known
 }
 
+// Whether a total error is the one asked for or less, up to rounding; not known: it is not.
+bool meets(const std::optional<double>& error, double goal);
 // Its mesh was adapted to a total error below its own.
 bool misses_goal(const Record& record);
 
