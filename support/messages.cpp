@@ -138,6 +138,13 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
+std::string shown_message(std::string_view text) {
+  Messages stream{STDERR_FILENO};
+  std::string shown;
+  for_each_character(text, [&](const std::string& character) { shown += stream.cut(character); });
+  return shown;
+}
+
 void show_messages_escaped() {
   static Messages* const err = new Messages{STDERR_FILENO};
   show(stdout, output(), _IOFBF, std::cout);

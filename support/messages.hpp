@@ -15,6 +15,9 @@ std::string escaped(std::string_view text);
 // bytes and lines above 4000 the rest is "…".
 void show_messages_escaped();
 
+// A message as it is shown so, for what is written in another way.
+std::string shown_message(std::string_view text);
+
 // On one line, but for those of a table, which are indented.
 std::string one_line(std::string message);
 

@@ -7,6 +7,7 @@
 #include <csignal>
 
 #include "support/errors.hpp"
+#include "support/messages.hpp"
 
 namespace airybench {
 namespace {
@@ -33,7 +34,7 @@ void set_timer(double seconds) {
 }  // namespace
 
 TimeLimit::TimeLimit(double seconds, const std::string& complaint) {
-  complaint_when_over = complaint + "\n";
+  complaint_when_over = shown_message(complaint) + "\n";
   std::signal(SIGALRM, end_over_time);
   set_timer(seconds);
 }

@@ -300,11 +300,12 @@ int advise_command(int argc, const char* const* argv) {
   std::vector<Record> uniform;
   Output next = options.output;
   if (is_refined) {
-    uniform = run_cases(plan_cases({adapted.levels.front(),
-                                    refined_scene(adapted.levels.front(), options.output.folder)},
-                                   select_methods(uniform_candidate), options.run),
-                        options.limits, options.output, context)
-                  .records();
+    uniform =
+        run_cases(
+            plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
+                       select_methods(uniform_candidate), options.run),
+            options.limits, options.output, context)
+            .records();
     next.append = true;
     const double factor = time_of_machine(uniform.back(), past);
     for (Record& record : past)

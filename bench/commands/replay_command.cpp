@@ -160,7 +160,7 @@ Case case_of(const Record& record, const std::string& place, const std::filesyst
     scene = scene_of(definition, place + ": scene_definition");
     scene.name = record.scene;
   }
-  posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
+  posed.problem = pose_in_time(scene, record.scene, std::move(mesh.mesh), options.limits);
   for (const Case& c : plan_cases({posed}, select_methods(record.method), options.run))
     if (c.knob.name == record.knob && c.knob.value == record.knob_value &&
         c.settings.stop == record.stop &&

@@ -24,7 +24,6 @@
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
 #include "support/sign_of_life.hpp"
-#include "support/time_limit.hpp"
 
 namespace airybench {
 namespace {
@@ -144,6 +143,7 @@ std::vector<fs::path> problem_files_of(const std::vector<fs::path>& given) {
 std::vector<PosedScene> posed_problems(const Options& options) {
   std::vector<PosedScene> posed;
   for (const fs::path& file : problem_files_of(options.run.problems)) {
+    const TimeLimit limit = phase_limit(file.string() + ": reading it", options.limits);
     auto problem = std::make_shared<const contact::Problem>(read_contact_problem(file));
     const auto same = [&](const PosedScene& p) { return mesh_name_of(p.problem) == problem->name; };
     if (!is_name(problem->name) || std::ranges::any_of(posed, same))
@@ -218,14 +218,9 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
       const MeshFile& file = meshes.at(given.model_settings())[k];
       const SceneFile on_body = is_of_catalogue(file.path) ? given : on_other_bodies(given);
       const Scene& scene = on_body.scene;
-      const double limit_s = phase_limit_s(options.limits);
-      const TimeLimit limit(limit_s,
-                            fmt::format("bench: {}/{}: posing it took more than {:g} s (more with "
-                                        "--timeout=...,others=SECONDS)",
-                                        file.mesh.name, scene.name, limit_s));
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.output.folder),
                        file.sha256, on_body.definition(),
-                       std::make_shared<const Problem>(pose(scene, file.mesh))});
+                       pose_in_time(scene, scene.name, file.mesh, options.limits)});
       note_out_of_reach(posed.back());
       note_matching(posed.back());
       if (!is_of_catalogue(file.path)) {

@@ -30,6 +30,13 @@ double phase_limit_s(const Limits& limits) {
   return limits.others_s.value_or(std::max(limits.timeout_s, min_s));
 }
 
+TimeLimit phase_limit(const std::string& what, const Limits& limits) {
+  const double limit_s = phase_limit_s(limits);
+  return {limit_s,
+          fmt::format("bench: {} took more than {:g} s (more with --timeout=...,others=SECONDS)",
+                      what, limit_s)};
+}
+
 std::string name_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
 std::optional<Shard> shard_of(const std::string& text) {

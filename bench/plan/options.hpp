@@ -10,6 +10,7 @@
 
 #include "bench/plan/case_settings.hpp"
 #include "bench/plan/study.hpp"
+#include "support/time_limit.hpp"
 
 namespace airybench {
 
@@ -81,6 +82,8 @@ struct Limits {
 // Of posing a scene, assembly, reference, verification, errors, fields; unless given, that of a
 // solve, but at least 900 s.
 double phase_limit_s(const Limits& limits);
+// The same for a phase of this process, which ends when it is passed. what: "a.dat: reading it".
+TimeLimit phase_limit(const std::string& what, const Limits& limits);
 
 // Where records go.
 struct Output {

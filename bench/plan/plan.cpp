@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/problem/pose.hpp"
 #include "bench/plan/stages.hpp"
 #include "support/sha256.hpp"
 
@@ -32,6 +33,13 @@ std::optional<ContactSolver> contact_solver(const Case& planned) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Problem> pose_in_time(const Scene& scene, const std::string& scene_name,
+                                            Mesh mesh, const Limits& limits) {
+  const TimeLimit limit =
+      phase_limit(fmt::format("{}/{}: posing it", mesh.name, scene_name), limits);
+  return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
+}
 
 CaseSettings common_settings(const RunSettings& run) {
   CaseSettings asked = run.cases;

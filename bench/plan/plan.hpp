@@ -9,6 +9,7 @@
 
 #include "assembly/contact_problem.hpp"
 #include "assembly/problem/problem.hpp"
+#include "assembly/problem/scene.hpp"
 #include "bench/plan/options.hpp"
 #include "bench/records/record.hpp"
 #include "solvers/base/method.hpp"
@@ -41,6 +42,10 @@ struct PosedScene {
 
   const std::shared_ptr<const Problem>& body() const { return std::get<0>(problem); }
 };
+
+// pose(), within phase_limit().
+std::shared_ptr<const Problem> pose_in_time(const Scene& scene, const std::string& scene_name,
+                                            Mesh mesh, const Limits& limits);
 
 struct Case {
   PosedScene posed;

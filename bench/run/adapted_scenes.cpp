@@ -7,7 +7,6 @@
 #include <iostream>
 #include <set>
 
-#include "assembly/problem/pose.hpp"
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/plan/mesh_files.hpp"
@@ -149,16 +148,16 @@ std::string obituary(const ChildEnd& end) {
 }
 
 PosedScene posed_level(const Json& said, const Scene& scene, const std::string& definition,
-                       const PosedScene& start, const std::filesystem::path& out) {
-  const MeshFile file = read_mesh_file(said.at("file").get<std::string>());
+                       const PosedScene& start, const Options& options) {
+  MeshFile file = read_mesh_file(said.at("file").get<std::string>());
   const Json& goal = said.at("goal");
   return {
       .scene_name = start.scene_name,
       .scene_group = start.scene_group,
-      .mesh_file = recorded_path(file.path, out),
+      .mesh_file = recorded_path(file.path, options.output.folder),
       .mesh_sha256 = file.sha256,
       .scene_definition = definition,
-      .problem = std::make_shared<const Problem>(pose(scene, file.mesh)),
+      .problem = pose_in_time(scene, start.scene_name, std::move(file.mesh), options.limits),
       .adapted = AdaptedMesh{said.at("number"), said.at("time_s"),
                              goal.is_null() ? std::nullopt : std::optional(goal.get<double>())}};
 }
@@ -176,7 +175,8 @@ void print(const Json& said, const std::string& name) {
 
 }  // namespace
 
-PosedScene refined_scene(const PosedScene& level_0, const std::filesystem::path& out) {
+PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
+  const std::filesystem::path& out = options.output.folder;
   PosedScene refined = level_0;
   refined.adapted.reset();
   Mesh mesh = uniformly_refined(level_0.body()->mesh);
@@ -185,8 +185,8 @@ PosedScene refined_scene(const PosedScene& level_0, const std::filesystem::path&
   write_file_atomically(file, msh_text(mesh));
   refined.mesh_file = recorded_path(file, out);
   refined.mesh_sha256 = sha256_of_file(file);
-  Scene scene = scene_of(level_0.scene_definition, mesh.name);
-  refined.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh)));
+  const Scene scene = scene_of(level_0.scene_definition, mesh.name);
+  refined.problem = pose_in_time(scene, level_0.scene_name, std::move(mesh), options.limits);
   return refined;
 }
 
@@ -242,7 +242,7 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
     std::erase_if(levels, [](const Json& said) { return !said.at("reaches").get<bool>(); });
   }
   for (const Json& said : levels)
-    result.levels.push_back(posed_level(said, scene, definition, start, options.output.folder));
+    result.levels.push_back(posed_level(said, scene, definition, start, options));
   if (!result.why_not_reached.empty())
     result.why_not_reached =
         fmt::format("--adapt={}: not reached for {}: {}", text_of(options.run.adapt.goals), name,

@@ -21,6 +21,6 @@ void check_adapting_method(const std::string& by);  // throws UsageError
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 
 // Refines level 0 uniformly once; writes the mesh next to it, MESH+refine1.msh.
-PosedScene refined_scene(const PosedScene& level_0, const std::filesystem::path& out);
+PosedScene refined_scene(const PosedScene& level_0, const Options& options);
 
 }  // namespace airybench

@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <set>
 
+#include "bench/plan/plan.hpp"
 #include "solvers/methods.hpp"
+#include "support/errors.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/small_meshes.hpp"
 
 namespace airybench::plan_test {
 namespace {
@@ -69,6 +72,17 @@ TEST(Plan, AFigureIsExactlyItsMeshesAndMethods) {
     EXPECT_TRUE(name.starts_with("Mesh3/default/SYMMLQ:") ||
                 name.starts_with("Mesh3/default/3STEPCG:"))
         << name;
+}
+
+TEST(PosingInTime, EndsWhereItTakesMoreThanAPhaseMay) {
+  const Mesh mesh = testing::small_tooth(100, 100);
+  Limits limits;
+  limits.others_s = 100;
+  EXPECT_EQ(pose_in_time(Scene(), "s", mesh, limits)->mesh.triangles, mesh.triangles);
+  limits.others_s = 1e-9;
+  EXPECT_EXIT(pose_in_time(Scene(), "\u202Es", mesh, limits),
+              ::testing::ExitedWithCode(wrong_usage),
+              "/\\\\u202es: posing it took more than 1e-09 s .more with --timeout=.*,others=");
 }
 
 }  // namespace
