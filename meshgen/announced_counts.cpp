@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -51,7 +52,40 @@ void refuse_stl_beyond(const std::string& text) {
                                  (text.size() - header - sizeof facets) / of_facet));
 }
 
+// A word on this line or a later one, and the number of its line.
+std::string_view next_word(std::string_view& text, std::size_t& line) {
+  for (; !text.empty() && (is_blank(text.front()) || text.front() == '\n'); text.remove_prefix(1))
+    line += text.front() == '\n';
+  const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n"));
+  text.remove_prefix(word.size());
+  return word;
+}
+
 }  // namespace
+
+// An element is six numbers, of which the second is its type and the sixth the count of its nodes,
+// three more of a beam's sections, and the nodes.
+void refuse_unv_counts_beyond(const std::string& text) {
+  constexpr std::string_view elements = "2412", end = "-1";
+  std::string_view left = text, word, before;
+  for (std::size_t line = 1; !(word = next_word(left, line)).empty(); before = word) {
+    if (word != elements || before != end) continue;
+    for (;;) {
+      std::array<std::optional<std::uint64_t>, 6> element;
+      for (auto& number : element)
+        if (!(number = count_of(word = next_word(left, line)))) break;
+      const auto [type, nodes] = std::pair(element[1], element[5]);
+      if (!nodes) break;  // the section's end, or nothing that can be read
+      if (*nodes > text.size())
+        throw InputError(
+            fmt::format("line {}: an element of {} nodes (allowed: up to {}, the "
+                        "file's bytes)",
+                        line, *nodes, text.size()));
+      const bool is_beam = *type == 11 || (21 <= *type && *type <= 24);
+      for (std::uint64_t k = 0; k < *nodes + (is_beam ? 3 : 0); ++k) next_word(left, line);
+    }
+  }
+}
 
 void refuse_counts_beyond(const std::string& text, bool is_stl) {
   if (is_stl) {

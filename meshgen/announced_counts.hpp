@@ -10,5 +10,7 @@ inline constexpr std::size_t max_entries = 10'000'000;
 
 // Of MSH, VTK, Medit, or STL files. Throws InputError: there cannot be so many.
 void refuse_counts_beyond(const std::string& text, bool is_stl = false);
+// Of the nodes that an element of a .unv has.
+void refuse_unv_counts_beyond(const std::string& text);
 
 }  // namespace airybench

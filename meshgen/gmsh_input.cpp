@@ -172,6 +172,7 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
   } else if (format == ModelFormat::mesh || format == ModelFormat::outline) {
     const bool is_outline = format == ModelFormat::outline;
     refuse_counts_beyond(text, is_outline);
+    if (file_.extension() == ".unv") refuse_unv_counts_beyond(text);
     const std::string tidy = tidied(text, !is_outline);
     if (is_outline && !is_binary) check_stl(tidy);
     for (const char* of_text : {".unv", ".bdf", ".mesh"})
