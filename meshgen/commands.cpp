@@ -19,6 +19,7 @@
 #include "meshgen/tooth_mesh.hpp"
 #include "support/atomic_file.hpp"
 #include "support/data_folder.hpp"
+#include "support/file_text.hpp"
 #include "support/messages.hpp"
 #include "support/process.hpp"
 #include "support/sha256.hpp"
@@ -135,26 +136,27 @@ int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
 
 int convert_command(const std::filesystem::path& model, const ModelOptions& options,
                     const std::filesystem::path& out) {
-  const std::filesystem::path file = cached_file(model, options);
+  constexpr const char *made = "made.msh", *place = "cached_file";
   std::optional<ConvertedModel> converted;
-  if (!file.empty()) converted = cached_model(file);
-  if (!converted) {
-    constexpr const char* made = "made.msh";
-    const auto convert = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh,
-                             const std::filesystem::path& folder) {
-      const LastWords last_words(model.string());
-      if (const auto why_not = keep_model(folder / made, convert_model(model, used, about_to_mesh)))
-        throw FileError(*why_not);
-    };
-    const auto take = [&](const std::filesystem::path& folder) {
-      converted = cached_model(folder / made);
-      if (!converted) throw FileError(model.string() + ": the mesh that was made cannot be read");
-      if (file.empty()) return;
-      if (const auto why_not = keep_model(file, *converted))
-        fmt::print(stderr, "note: the mesh is not kept for next time: {}\n", *why_not);
-    };
-    if (const int code = in_a_child(model, options, convert, take); code != 0) return code;
-  }
+  const auto convert = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh,
+                           const std::filesystem::path& folder) {
+    const LastWords last_words(model.string());
+    const std::filesystem::path kept = cached_file(model, options);
+    write_file_atomically(folder / place, kept.string());
+    if (!kept.empty() && cached_model(kept)) return;
+    if (const auto why_not = keep_model(folder / made, convert_model(model, used, about_to_mesh)))
+      throw FileError(*why_not);
+  };
+  const auto take = [&](const std::filesystem::path& folder) {
+    const std::filesystem::path kept = file_text(folder / place);
+    const bool is_made = std::filesystem::exists(folder / made);
+    converted = cached_model(is_made ? folder / made : kept);
+    if (!converted) throw FileError(model.string() + ": the mesh that was made cannot be read");
+    if (!is_made || kept.empty()) return;
+    if (const auto why_not = keep_model(kept, *converted))
+      fmt::print(stderr, "note: the mesh is not kept for next time: {}\n", *why_not);
+  };
+  if (const int code = in_a_child(model, options, convert, take); code != 0) return code;
   print_notes(model, converted->notes);
   if (out == "-") {
     print_data(msh_text(converted->mesh));

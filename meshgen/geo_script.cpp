@@ -24,14 +24,15 @@ namespace {
 
 struct Token {
   enum Kind { word, literal, sign } kind;
-  std::string text;
+  std::string_view text;
   bool is(std::string_view other) const { return kind != literal && text == other; }
 };
 
 bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-// Words, literals without their quotes, and single signs; no comments.
-std::vector<Token> tokens_of(std::string_view text) {
+// Words, literals without their quotes, and single signs; no comments. They are parts of the text.
+std::vector<Token> tokens_of(std::string_view text, const std::filesystem::path& file) {
+  constexpr std::size_t max_tokens = 30'000'000;
   std::vector<Token> tokens;
   const auto cut = [&](std::size_t length) {
     const std::string_view part = text.substr(0, length);
@@ -39,6 +40,8 @@ std::vector<Token> tokens_of(std::string_view text) {
     return part;
   };
   while (!text.empty()) {
+    if (tokens.size() > max_tokens)
+      throw FileError(file.string() + ": more words and signs than 3e7 (allowed: up to that)");
     if (text.starts_with("//")) {
       cut(text.find('\n'));
     } else if (text.starts_with("/*")) {
@@ -47,15 +50,14 @@ std::vector<Token> tokens_of(std::string_view text) {
     } else if (text.front() == '"' || text.front() == '\'') {
       const std::size_t end = text.find(text.front(), 1);
       const std::string_view quoted = cut(end == text.npos ? end : end + 1);
-      tokens.push_back({Token::literal, std::string(quoted.substr(1, quoted.size() - 2))});
+      tokens.push_back({Token::literal, quoted.substr(1, quoted.size() - 2)});
     } else if (is_of_word(text.front())) {
       const auto end = std::find_if_not(text.begin(), text.end(), is_of_word);
-      tokens.push_back(
-          {Token::word, std::string(cut(static_cast<std::size_t>(end - text.begin())))});
+      tokens.push_back({Token::word, cut(static_cast<std::size_t>(end - text.begin()))});
     } else {
       const std::string_view one = cut(1);
       if (!std::isspace(static_cast<unsigned char>(one.front())))
-        tokens.push_back({Token::sign, std::string(one)});
+        tokens.push_back({Token::sign, one});
     }
   }
   return tokens;
@@ -119,10 +121,10 @@ constexpr const char* harmless_words =
     "VOut Verbosity Visible Volume Warning Wedge Wire XCenter XMax XMin YCenter YMax YMin "
     "ZCenter ZMax ZMin newc newcl newf newl newll newp newreg news newsl newv";
 
-const std::set<std::string>& harmless() {
-  static const std::set<std::string> words = [] {
+const std::set<std::string, std::less<>>& harmless() {
+  static const std::set<std::string, std::less<>> words = [] {
     const std::vector<std::string> list = split_list(harmless_words, ' ');
-    return std::set<std::string>(list.begin(), list.end());
+    return std::set<std::string, std::less<>>(list.begin(), list.end());
   }();
   return words;
 }
@@ -222,7 +224,7 @@ std::size_t read_definitions(const std::vector<Token>& tokens, std::size_t at, G
     if (depth == 0) break;
     const Token& before = tokens[at - 1];
     if (depth == 1 && token.kind == Token::word && (before.is("[") || before.is(",")))
-      script.constants.insert(token.text);
+      script.constants.emplace(token.text);
   }
   return at;
 }
@@ -245,7 +247,7 @@ void read_included(GeoScript& script, const std::filesystem::path& file) {
 
 void read_into(GeoScript& script, const std::filesystem::path& file, const std::string& text) {
   script.files.push_back(file);
-  const std::vector<Token> tokens = tokens_of(text);
+  const std::vector<Token> tokens = tokens_of(text, file);
   refuse_long_lists(tokens, file);
   bool prints = false;
   for (std::size_t at = 0; at + 1 < tokens.size(); ++at) {
@@ -254,7 +256,7 @@ void read_into(GeoScript& script, const std::filesystem::path& file, const std::
     script.may_write |= is_one_of(token, writers);
     script.may_start_programs |= is_one_of(token, starters);
     if (token.is("ExternalProcess")) script.has_external_process = true;
-    if (token.is("Name") && next.kind == Token::literal) script.onelab_names.insert(next.text);
+    if (token.is("Name") && next.kind == Token::literal) script.onelab_names.emplace(next.text);
     if (token.is("DefineConstant") && next.is("[")) read_definitions(tokens, at + 1, script);
     if (token.is("Printf") || token.is("Error") || token.is("Warning")) prints = true;
     if (token.is(";")) prints = false;

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <new>
 #include <optional>
 
 #include "meshgen/complaints.hpp"
@@ -83,7 +84,11 @@ Attempt attempt(const std::filesystem::path& model, const ModelLimits& limits,
     const auto confined = [&] {
       const bool writes_here = write_only_in(scratch), starts_none = start_no_programs();
       refuse_if_it_needs_confinement(model, writes_here, starts_none);
-      work(begin);
+      try {
+        work(begin);
+      } catch (const std::bad_alloc&) {
+        return no_memory_exit_code;  // for the parent to tell, which names the model
+      }
       return 0;
     };
     _exit(checked_exit_code(complained(confined), "meshgen"));

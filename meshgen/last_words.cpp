@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "meshgen/gmsh_mesher.hpp"
@@ -27,6 +28,8 @@ void at_exit() {
 [[noreturn]] void at_terminate() {
   try {
     if (std::current_exception()) end_with(("Gmsh: " + message_of_gmsh()).c_str());
+  } catch (const std::bad_alloc&) {
+    end_with("out of memory");
   } catch (const std::exception& error) {
     end_with(error.what());
   } catch (...) {
