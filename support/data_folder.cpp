@@ -1,5 +1,7 @@
 #include "support/data_folder.hpp"
 
+#include <fmt/format.h>
+
 #include "support/errors.hpp"
 
 namespace airybench {
@@ -7,7 +9,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path folder_of_program() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+fs::path folder_of_program() {
+  const char* const link = "/proc/self/exe";
+  std::error_code error;
+  const fs::path program = fs::read_symlink(link, error);
+  if (error) throw FileError(fmt::format("{}: {}", link, error.message()));
+  return program.parent_path();
+}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 
 #include "mesh/msh_format.hpp"
 #include "tests/support/meshgen_command.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::command_test {
 namespace {
@@ -50,6 +51,16 @@ TEST_F(Command, OutputThatCannotBeWrittenIsTold) {
     EXPECT_EQ(text_of(folder / ".err"),
               "meshgen: standard output: is closed (allowed: an open one, or --out=FILE)\n");
   }
+}
+
+TEST_F(Command, ProcThatIsMissingIsTold) {
+  if (testing::sanitized || exit_code_of("unshare -m true 2>/dev/null") != 0)
+    GTEST_SKIP() << "needs root, to take /proc away, and a program that sanitizers let do without";
+  EXPECT_EQ(exit_code_of("unshare -m sh -c \"umount -l /proc && '" +
+                         testing::meshgen_executable().string() + "' --check\" 2>'" +
+                         (folder / ".err").string() + "'"),
+            1);
+  EXPECT_EQ(text_of(folder / ".err"), "meshgen: /proc/self/exe: No such file or directory\n");
 }
 
 TEST_F(Command, NamesAreEscapedInMessagesAndKeptInMeshes) {
@@ -115,6 +126,11 @@ TEST_F(Command, BadNumbersAreRefused) {
   expect_refusal(tooth + "--out=a.msh --length=nan", 2, {"length is nan mm", "positive"});
   expect_refusal(tooth + "--out=a.msh --teeth=3 --pitch=9", 2, {"pitch is 9 mm", "10"});
   expect_refusal(tooth + "--out=a.msh --teeth=9", 2, {"contact edges: 8", "9"});
+  for (const auto& [edges, triangles] :
+       {std::pair("--contact-edges=1000000 --displacement-edges=6", "about 2e+11 "),
+        {"--contact-edges=8 --displacement-edges=1000000", "about 1e+11 "}})
+    expect_refusal(fmt::format("--tooth --force-edges=20 --out=a.msh {}", edges), 2,
+                   {triangles, "triangles with so many edges on tips and held face (allowed: "});
   const std::string modify = "--modify=Mesh0 --out=a.msh ";
   expect_refusal(modify + "--refine=7", 2, {"refine: 7 (allowed: a whole number from 0 to 6)"});
   expect_refusal(modify + "--refine=1.5", 2, {"--refine", "1.5"});
