@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "tests/support/meshgen_command.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::limits_test {
 namespace {
@@ -47,6 +48,11 @@ TEST_F(Limits, CountsAreThoseOfTheFilesLength) {
                  "part.msh: line 5: $Nodes 400000000 (allowed: up to ");
   expect_refused("part.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 400000000\n0 0 0 1\n",
                  "part.mesh: line 3: Vertices 400000000 (allowed: up to ");
+  for (const std::string type : {"11", "41"})  // a beam and a triangle
+    expect_refused(
+        "part.unv",
+        "-1\n2412\n1 21 1 0 7 2\n0 0 0\n1 2\n2 " + type + " 1 0 7 400000000\n1 2 3\n-1\n",
+        "part.unv: line 6: an element of 400000000 nodes (allowed: up to ");
   expect_refused("part.stl", std::string(80, '\0') + std::string(4, '\xff') + "nothing",
                  "part.stl: 4294967295 facets (allowed: up to 0, by its length)");
 }
@@ -57,6 +63,29 @@ TEST_F(Limits, APackedFileOfBlanksIsRefused) {
             0);
   expect_refusal("--convert=part.msh.gz --out=out.msh", 1,
                  {"part.msh.gz: unpacks to more than 200 times its length (allowed: up to that)"});
+}
+
+class LongScript : public Limits {
+ protected:
+  // part.geo.gz, of so many signs; returns the complaint about it.
+  std::string complaint(int signs, const std::string& limit = "") const {
+    EXPECT_EQ(exit_code_of(fmt::format(
+                  "{}cd '{}' && head -c {} /dev/zero | tr '\\0' ';' | gzip -1 "
+                  ">part.geo.gz && '{}' --convert=part.geo.gz --out=x.msh 2>.err",
+                  limit, folder.path().string(), signs, testing::meshgen_executable().string())),
+              1);
+    return without_signs_of_life(testing::text_of(folder / ".err"));
+  }
+};
+
+TEST_F(LongScript, IsRefusedByTheCountOfItsWords) {
+  EXPECT_EQ(complaint(31'000'000),
+            "meshgen: part.geo.gz: more words and signs than 3e7 (allowed: up to that)\n");
+}
+
+TEST_F(LongScript, ForWhichThereIsNoMemoryIsNamed) {
+  if (testing::sanitized) GTEST_SKIP() << "sanitizers take more address space than there is";
+  EXPECT_EQ(complaint(29'000'000, "ulimit -v 900000; "), "meshgen: part.geo.gz: out of memory\n");
 }
 
 const std::string plate =
