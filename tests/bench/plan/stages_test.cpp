@@ -34,7 +34,7 @@ TEST(Stages, WhatIsLeftOutHasItsReason) {
   };
   EXPECT_EQ(left_out({}, "3STEPD").size(), 3u);
   expect_reason(left_out({}, "3STEPD"), {"assemble q"},
-                "no displacement that strains the body, no body force");
+                "no displacement that strains the body, no body force, no thermal strain");
   expect_reason(left_out({}, "3STEPD"), {"assemble F"}, "no traction, no body force");
   expect_reason(left_out({}, "3STEPD"), {"assemble F0"}, "no body force");
   expect_reason(left_out({.friction = 0}, "3STEPD"), {"contact: tangential law"},
