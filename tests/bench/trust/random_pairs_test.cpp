@@ -1,7 +1,8 @@
 // The promise: between bodies whose vertices do not match, HYBRID's total error is one that can be
 // used. It is not below the true error, known from stresses of a higher degree, and not far above
 // that of displacements that the method P_{k+1} solves for. Here on two blocks at random, from
-// good triangles to slivers of a tenth of a degree, with and without friction.
+// good triangles to slivers of a tenth of a degree, with and without friction, some of them bonded,
+// some warm.
 //
 // AIRYBENCH_RANDOM_SCENES=FIRST,COUNT in the environment tries others, and more.
 #include <fmt/format.h>
@@ -58,6 +59,16 @@ Pair random_pair(Dice& dice) {
   };
   moved("displacement:floor", {0, 0});
   moved("displacement:head", {dice.between(-0.006, 0.006), dice.between(-0.01, -0.001)});
+  if (dice.below(4) == 0) {
+    scene.contacts[0].law = ContactPair::Law::bonded;
+    scene.friction = 0;
+  }
+  if (dice.below(3) == 0) {
+    scene.materials["upper"].expansion_per_K = 12e-6;
+    scene.temperature_K["upper"] = {
+        {dice.between(-100, 100), dice.between(-100, 100)},
+        {Eigen::Vector2d(0, 0), Eigen::Vector2d(dice.between(1, 9), 5)}};
+  }
   return pair;
 }
 
@@ -116,6 +127,7 @@ TEST(RandomPairs, TheTotalErrorIsNeitherTooSmallNorFarTooLarge) {
       const std::string name =
           fmt::format("pair {}, friction {}, degree {}", i, pair.scene.friction, k);
       EXPECT_EQ(error.flaw, "") << name;
+      EXPECT_EQ(error.guaranteed, pair.scene.friction == 0) << name;
       const double off = stress_distance(best.problem(), elevated(own.solution.stress, highest + 1),
                                          best.solution.stress) /
                          norm;
