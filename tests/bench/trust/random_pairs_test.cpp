@@ -125,7 +125,9 @@ TEST(RandomPairs, TheTotalErrorIsNeitherTooSmallNorFarTooLarge) {
       if (own.solution.status != Status::ok) continue;
       const ConstitutiveError error = own.recovered_error();
       const std::string name =
-          fmt::format("pair {}, friction {}, degree {}", i, pair.scene.friction, k);
+          fmt::format("pair {}, friction {}, {}{}degree {}", i, pair.scene.friction,
+                      pair.scene.contacts[0].is_bonded() ? "bonded, " : "",
+                      pair.scene.temperature_K.empty() ? "" : "warm, ", k);
       EXPECT_EQ(error.flaw, "") << name;
       EXPECT_EQ(error.guaranteed, pair.scene.friction == 0) << name;
       const double off = stress_distance(best.problem(), elevated(own.solution.stress, highest + 1),
