@@ -235,15 +235,18 @@ class Recovery {
     return result;
   }
 
-  // Zones, while there is more to gain than a share of the distance. What is true error stays in
-  // stiff triangles, too: a zone is worth another one only if it has lowered the distance by far.
-  // The last step puts w behind the walls. A millionth of ‖σ‖ is not worth it.
+  // Zones, while there is more to gain than a share of the distance, or this is of the size of the
+  // energy, which a step between slivers may not see. What is true error stays in stiff triangles,
+  // too: a zone is worth another one only if it has lowered the distance by far. The last step puts
+  // w behind the walls. A millionth of ‖σ‖ is not worth it.
   void improve_where_needed() {
-    constexpr double share = 0.15, far = 10, negligible = 1e-12;
+    constexpr double share = 0.15, far = 10, large = 0.25, negligible = 1e-12;
     constexpr int max_zones = 4;
+    const double energy_Nmm = stress_norm_squared(problem_, stress_) / 2;
     JacobiStep now = step();
-    bool is_needed = now.gain_Nmm.sum() > share * now.distance_Nmm &&
-                     now.distance_Nmm > negligible * stress_norm_squared(problem_, stress_) / 2;
+    bool is_needed =
+        (now.gain_Nmm.sum() > share * now.distance_Nmm || now.distance_Nmm > large * energy_Nmm) &&
+        now.distance_Nmm > negligible * energy_Nmm;
     for (int zones = 1; is_needed; ++zones) {
       improve_zone_of(now);
       JacobiStep next = step();
