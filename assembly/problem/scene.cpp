@@ -29,9 +29,9 @@ void check_loads(const Scene& scene, const std::string& prefix, const BoundaryCo
                  const Eigen::Vector2d& displacement_mm,
                  const Eigen::Vector2d& body_force_N_per_mm3) {
   of_scene(scene, prefix + "boundary", [&] { check_values(boundary); });
-  for (const auto& [body, temperature] : temperature_K)
+  for (const auto& of_body : temperature_K)
     of_scene(scene, prefix + "temperature_K",
-             [&] { check(body, std::optional(temperature), temperature_magnitude); });
+             [&] { check(of_body.first, std::optional(of_body.second), temperature_magnitude); });
   if (!(clearance_mm >= 0 && length_magnitude.has(clearance_mm)))
     fail(scene, prefix + "clearance_mm", clearance_mm, "(allowed: 0 to 1e15 mm)");
   if (!length_magnitude.has(displacement_mm))
