@@ -205,7 +205,7 @@ double CurvedTraces::squared_distance(int triangle, const StressCoefficients& st
   for (int e = 0; e < 3; ++e) {
     const std::vector<Eigen::Vector2d> chord = {v.col(e), v.col((e + 1) % 3)};
     const SideCurve curve = curves[e].is_straight() ? SideCurve{chord, {}, {}} : curves[e];
-    const Points side(curve, k);
+    const Points side({curve.points_mm, {}, {}}, k);
     // What w is more on the side than the interpolant, and its derivative.
     Eigen::MatrixX2d more = Eigen::MatrixX2d::Zero(Points::points, 2), slope = more;
     if (has_traces(problem_, round.rows[e])) {

@@ -147,7 +147,9 @@ SideCurve Problem::curve_of(int boundary_row, int degree) const {
   if (has_law_normals(*this, boundary_row)) {
     const ContactNormals& normals = curve_normals[boundary_row];
     curve.law_normals = normals.all(ContactNormals::max_parts);
-    curve.moment_normals = normals.all(degree + 2).subspan(1, static_cast<std::size_t>(degree) + 1);
+    if (degree <= highest_stress_degree)  // displacements of one more have no moments
+      curve.moment_normals =
+          normals.all(degree + 2).subspan(1, static_cast<std::size_t>(degree) + 1);
   }
   return curve;
 }

@@ -69,7 +69,7 @@ Problem round_body(Dice& dice, const KolosovField& field) {
 }
 
 TEST(RandomRoundBodies, TotalErrorsAreAboveTheTrueOnesAndNotByMuch) {
-  constexpr int bodies = testing::sanitized ? 10 : 30;
+  constexpr int bodies = testing::sanitized ? 10 : 50;
   Dice dice(73);
   for (int body = 0; body < bodies; ++body) {
     const KolosovField field = symmetric_field(dice, dice.between(0, 0.45));
