@@ -9,7 +9,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path known_folder;  // empty: that of the executable
+
 fs::path folder_of_program() {
+  if (!known_folder.empty()) return known_folder;
   const char* const link = "/proc/self/exe";
   std::error_code error;
   const fs::path program = fs::read_symlink(link, error);
@@ -18,6 +21,8 @@ fs::path folder_of_program() {
 }
 
 }  // namespace
+
+void take_for_program_in(fs::path folder) { known_folder = std::move(folder); }
 
 fs::path data_folder(std::string_view name) {
   const fs::path place = folder_of_program().parent_path() / "share" / "airybench" / name;
@@ -32,8 +37,8 @@ fs::path data_folder(std::string_view name) {
 std::optional<fs::path> program_of_ours(const std::string& name) {
   const fs::path folder = folder_of_program();
   std::error_code error;
-  for (const fs::path& file : {folder / ("airybench-" + name), folder / ".." / name / name})
-    if (fs::is_regular_file(file, error)) return file.lexically_normal();
+  for (const fs::path& file : {folder / ("airybench-" + name), folder.parent_path() / name / name})
+    if (fs::is_regular_file(file, error)) return file;
   return {};
 }
 

@@ -33,8 +33,10 @@ void take_figure(int figure, RunSettings& run) {
 
 // The paper's methods are for its meshes: on another body they give the picture of HYBRID, later,
 // and cannot solve bodies with holes.
-std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
+std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options,
+                                const std::vector<Method>& added) {
   std::vector<Method> others = other_programs(options.run.externals, options.limits);
+  std::ranges::copy(added, std::back_inserter(others));
   if (!options.run.problems.empty()) {
     others.insert(others.begin(), condensed_contact());
     return options.run.methods.empty() ? others : select_methods(options.run.methods, others);
@@ -92,12 +94,12 @@ std::vector<Method> other_programs(const std::vector<std::filesystem::path>& dec
   return methods;
 }
 
-PlannedCases planned_cases(Options options) {
+PlannedCases planned_cases(Options options, const std::vector<Method>& added) {
   if (options.run.figure) take_figure(*options.run.figure, options.run);
   PlannedCases planned;
   std::vector<PosedScene> scenes = posed_scenes(options);
   const bool adapts = !options.run.adapt.goals.empty();
-  if (adapts) check_adapting_method(options.run.adapt.by);
+  if (adapts) adapting_method(options.run.adapt.by);
   if (adapts && options.dry_run) {
     std::cerr
         << "note: --adapt: of the first level alone; the others are known when it is solved\n";
@@ -106,7 +108,7 @@ PlannedCases planned_cases(Options options) {
     planned.lock = std::make_unique<FolderLock>(options.output.folder);
     scenes = levels_of(scenes, options, planned.short_of);
   }
-  planned.whole = plan_cases(scenes, methods_for(scenes, options), options.run);
+  planned.whole = plan_cases(scenes, methods_for(scenes, options, added), options.run);
   if (!options.run.filter.empty())
     planned.whole = matching(std::move(planned.whole), options.run.filter);
   if (planned.whole.empty() && planned.short_of.empty())

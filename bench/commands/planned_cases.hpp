@@ -22,8 +22,8 @@ struct PlannedCases {
   std::unique_ptr<FolderLock> lock;   // of --out, where the adapted meshes are
 };
 // Adapts the meshes unless the command only plans. There is a case, or a goal that is not reached.
-// Throws UsageError and errors of reading.
-PlannedCases planned_cases(Options options);
+// added: more methods, which the options may name. Throws UsageError and errors of reading.
+PlannedCases planned_cases(Options options, const std::vector<Method>& added = {});
 
 // What the cases will take, by earlier records, and which stages they leave out.
 void print_forecast(const std::vector<Case>& plan, const Options& options);

@@ -12,7 +12,6 @@
 
 #include "bench/plan/contact_faces.hpp"
 #include "bench/plan/mesh_files.hpp"
-#include "bench/plan/scene_file.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "mesh/model_format.hpp"
@@ -50,28 +49,6 @@ void note_unused_deck(const RunSettings& run) {
           "note: {}: its mesh alone is read; materials, supports, loads and contact are the "
           "scene's\n",
           item);
-}
-
-std::vector<SceneFile> read_scenes(const RunSettings& run) {
-  std::vector<SceneFile> scenes;
-  for (const fs::path& file : run.scenes.empty() ? scenes_of(run.study) : run.scenes) {
-    SceneFile added = read_scene_file(file);
-    const Scene& scene = added.scene;
-    for (const SceneFile& other : scenes)
-      if (other.scene.name == scene.name)
-        throw UsageError(fmt::format("--scene: two scenes are named {}: {} and {}", scene.name,
-                                     other.scene.source, scene.source));
-    scenes.push_back(std::move(added));
-  }
-  if (scenes.empty())
-    if (std::optional<SceneFile> own = scene_of_own_deck(run)) return {std::move(*own)};
-  if (scenes.empty() && run.needs_scene && is_mesh_file(run.meshes))
-    throw UsageError(
-        fmt::format("{}: a SCENE is needed ({} bench new-scene {} writes one to fill in)",
-                    shortened(run.meshes), called_as("run"), shell_word(run.meshes)));
-  note_unused_deck(run);
-  if (scenes.empty()) scenes.emplace_back();
-  return scenes;
 }
 
 void note_out_of_reach(const PosedScene& posed) {
@@ -202,9 +179,34 @@ std::string picture_line(const RunResult& result, const fs::path& out, bool has_
 
 }  // namespace
 
+std::vector<SceneFile> read_scenes(const RunSettings& run) {
+  std::vector<SceneFile> scenes;
+  for (const fs::path& file : run.scenes.empty() ? scenes_of(run.study) : run.scenes) {
+    SceneFile added = read_scene_file(file);
+    const Scene& scene = added.scene;
+    for (const SceneFile& other : scenes)
+      if (other.scene.name == scene.name)
+        throw UsageError(fmt::format("--scene: two scenes are named {}: {} and {}", scene.name,
+                                     other.scene.source, scene.source));
+    scenes.push_back(std::move(added));
+  }
+  if (scenes.empty())
+    if (std::optional<SceneFile> own = scene_of_own_deck(run)) return {std::move(*own)};
+  if (scenes.empty() && run.needs_scene && is_mesh_file(run.meshes))
+    throw UsageError(
+        fmt::format("{}: a SCENE is needed ({} bench new-scene {} writes one to fill in)",
+                    shortened(run.meshes), called_as("run"), shell_word(run.meshes)));
+  note_unused_deck(run);
+  if (scenes.empty()) scenes.emplace_back();
+  return scenes;
+}
+
 std::vector<PosedScene> posed_scenes(const Options& options) {
-  if (!options.run.problems.empty()) return posed_problems(options);
-  std::vector<SceneFile> scenes = read_scenes(options.run);
+  return options.run.problems.empty() ? posed_scenes(options, read_scenes(options.run))
+                                      : posed_problems(options);
+}
+
+std::vector<PosedScene> posed_scenes(const Options& options, std::vector<SceneFile> scenes) {
   if (options.run.equal_steps)
     for (SceneFile& file : scenes) file = in_equal_steps(std::move(file), *options.run.equal_steps);
   const SignsOfLife signs("reading " + shortened(options.run.meshes));

@@ -7,14 +7,19 @@
 
 #include "bench/plan/options.hpp"
 #include "bench/plan/plan.hpp"
+#include "bench/plan/scene_file.hpp"
 #include "bench/report/prediction.hpp"
 #include "bench/run/runner.hpp"
 
 namespace airybench {
 
+// Of the run's files, of its deck, or the default scene. Throws UsageError, FileError.
+std::vector<SceneFile> read_scenes(const RunSettings& run);
+
 // Poses every mesh under every scene, or the contact problems of --problem in the scene "fclib".
 // Writes converted meshes unless the command only plans. Throws UsageError and errors of reading.
 std::vector<PosedScene> posed_scenes(const Options& options);
+std::vector<PosedScene> posed_scenes(const Options& options, std::vector<SceneFile> scenes);
 PosedScene one_posed_scene(const Options& options);  // throws UsageError unless there is one
 
 // Of the paper's meshes, also adapted or refined: "Mesh0+adapt3".

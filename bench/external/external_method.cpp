@@ -11,8 +11,8 @@
 #include <string_view>
 #include <system_error>
 
-#include "assembly/control_points.hpp"
 #include "bench/external/answer.hpp"
+#include "bench/external/answered.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/base/dense_products.hpp"
@@ -184,27 +184,10 @@ class ProgramSolve {
 Solution solve_airy(const Caller& caller, const AirySystem& system, const RunControl& control) {
   ProgramSolve program(
       caller, [&] { return airy_files(system, caller.declaration.format); }, control);
-  const Eigen::VectorXd x = program.array("x.mtx", system.n(), 1);
+  Eigen::VectorXd x = program.array("x.mtx", system.n(), 1);
   Solution solution = program.take_over(control, program.contact_forces(system.n_c()));
-  const StageTimer timer(solution.times, Stage::recover);
-  Eigen::VectorXd phi = airy_function(system, x);
-  solution.stress = stress_of_airy_function(*system.problem, phi);
-  solution.unknowns = AiryFunction{std::move(phi)};
+  take_airy_unknowns(system, x, solution);
   return solution;
-}
-
-// Coefficients of w = u − motion, from u at vertices and at the middles of edges.
-DisplacementField displacement_of(const Problem& problem, const Eigen::MatrixXd& values) {
-  const auto& x = problem.mesh.vertices;
-  const auto vertices = static_cast<Eigen::Index>(x.size());
-  DisplacementField w = values.transpose();
-  for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) -= problem.motion.at(x[v]);
-  for (Eigen::Index edge = vertices; edge < w.cols(); ++edge) {
-    const auto& [a, b] = problem.edges.vertices[edge - vertices];
-    const Eigen::Vector2d middle = w.col(edge) - problem.motion.at((x[a] + x[b]) / 2);
-    w.col(edge) = edge_coefficients<Eigen::Vector2d>(w.col(a), middle, w.col(b))[1];
-  }
-  return w;
 }
 
 Solution solve_body(const Caller& caller, const ContactSystem& system, const RunControl& control) {
@@ -214,13 +197,7 @@ Solution solve_body(const Caller& caller, const ContactSystem& system, const Run
   const Eigen::MatrixXd values =
       program.array("displacement_mm.mtx", displacement_nodes(problem), 2);
   Solution solution = program.take_over(control);
-  const StageTimer timer(solution.times, Stage::recover);
-  DisplacementField w = displacement_of(problem, values);
-  solution.stress = stress_of_displacement(problem, w);
-  const ControlPoints points = control_points(problem);
-  solution.F_C = contact_reactions(problem, points, w);
-  solution.contact_displacement = displacement_at(points, w);
-  solution.unknowns = Displacements{std::move(w), caller.declaration.tolerances};
+  take_displacement(problem, values, caller.declaration.tolerances, solution);
   return solution;
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <new>
 
 #include "bench/measure/heap_probe.hpp"
@@ -14,8 +13,6 @@
 
 namespace airybench {
 namespace {
-
-constexpr double tightest = 1e-15;  // tolerance of an iteration
 
 void drop_arrays(CaseResult& result) {
   Solution& solution = *result.solution;
@@ -133,10 +130,7 @@ Workbench::Choice Workbench::choose(const Case& asked, const AssembledBlocks& bl
   Choice choice{method.solve, method.solve_contact, asked.settings};
   CaseSettings& settings = choice.settings;
   settings.tightened = settings.tightened && method.is_tightened();
-  if (settings.tightened)
-    settings.tolerance = settings.stop == Stop::paper
-                             ? method.paper_tolerance
-                             : std::max(tightest, method.first_tolerance * settings.target_error);
+  if (settings.tightened) settings.tolerance = first_tolerance(method, settings);
   if (!method.tune) return choice;
   Tuning tuning;
   const auto tune = [&](const ContactSystem& system, const RunControl& control) {
@@ -178,7 +172,6 @@ Search::Attempt Workbench::attempt_of(const Choice& choice, const AssembledBlock
 
 Workbench::Run Workbench::tighten(const AssembledBlocks& assembled, Choice& choice,
                                   Search& search) {
-  constexpr int max_attempts = 6;
   std::optional<Run> finished;  // the last answer, not accurate enough
   double finished_with = 0;
   const CaseSettings& asked = choice.settings;
@@ -193,10 +186,9 @@ Workbench::Run Workbench::tighten(const AssembledBlocks& assembled, Choice& choi
     }
     if (!asked.tightened) return run;
     search.attempts.push_back(attempt_of(choice, assembled, run));
-    const double estimate = solution.error_estimate.value_or(0);
-    double tolerance = *asked.tolerance;
     if (asked.stop == Stop::paper || !has_answer(solution.status) ||
-        solution.status == Status::ok || attempt == max_attempts || tolerance <= tightest)
+        solution.status == Status::ok || attempt == max_tightenings ||
+        *asked.tolerance <= tightest_tolerance)
       return run;
     const double searched_s = search.tuning_s.value_or(0) + run.time_s;
     if (limits_.tuning_budget_s && searched_s >= *limits_.tuning_budget_s) {
@@ -204,31 +196,17 @@ Workbench::Run Workbench::tighten(const AssembledBlocks& assembled, Choice& choi
       return run;
     }
     search.tuning_s = searched_s;
-    finished_with = tolerance;
-    // Errors are about proportional to the tolerance; 3 is a safety factor.
-    const double factor = asked.target_error / estimate / 3;
-    tolerance *= std::isfinite(factor) ? std::clamp(factor, 1e-3, 0.3) : 0.1;
-    choice.settings.tolerance = std::max(tightest, tolerance);
+    finished_with = *asked.tolerance;
+    choice.settings.tolerance = next_tolerance(finished_with, solution, asked);
     finished = std::move(run);
   }
 }
 
 RunControl Workbench::control_of(const CaseSettings& settings, Activity what) const {
   const bool in_detail = what == Activity::detail_run;
-  RunControl control;
-  control.deadline = Deadline::after(run_limit_s(what, limits_));
+  RunControl control = airybench::control_of(settings, Deadline::after(run_limit_s(what, limits_)));
   control.histories = in_detail;
   control.condition = in_detail && settings.condition;
-  control.threads = settings.threads;
-  control.stop = settings.stop;
-  control.target_error = settings.target_error;
-  control.tolerance = settings.tolerance.value_or(0);
-  control.max_iterations = settings.max_iterations;
-  ContactOptions& contact = control.contact;
-  contact.solver = settings.contact.value_or(contact.solver);
-  contact.tolerance = settings.contact_tolerance.value_or(contact.tolerance);
-  contact.acceptable = std::max(contact.tolerance, settings.target_error / 1000);
-  contact.max_iterations = settings.max_contact_iterations.value_or(contact.max_iterations);
   return control;
 }
 

@@ -1,5 +1,5 @@
-// What is asked of a case, besides its problem and its method: plain data. Workbench makes what the
-// method is told from it (Workbench::control_of()).
+// What is asked of a case, besides its problem and its method: plain data. control_of() makes what
+// the method is told from it.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,11 @@
 #include "support/status.hpp"
 
 namespace airybench {
+
+class Deadline;
+struct Method;
+struct RunControl;
+struct Solution;
 
 struct CaseSettings {
   Stop stop = Stop::target;
@@ -33,5 +38,14 @@ struct CaseSettings {
   bool error_of_displacements = false;
   std::string stresses_by = "HYBRID";  // the method whose stresses recovery starts from
 };
+
+RunControl control_of(const CaseSettings& settings, const Deadline& deadline);
+
+// The tolerance of an iterative method is that of its first run, and then, as long as its own
+// error estimate is above the target, the next, for so many runs; not below the tightest.
+inline constexpr double tightest_tolerance = 1e-15;
+inline constexpr int max_tightenings = 6;
+double first_tolerance(const Method& method, const CaseSettings& settings);
+double next_tolerance(double tolerance, const Solution& solution, const CaseSettings& settings);
 
 }  // namespace airybench

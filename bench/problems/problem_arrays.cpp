@@ -8,6 +8,7 @@
 
 #include "assembly/elements/bernstein.hpp"
 #include "assembly/row_order.hpp"
+#include "solvers/condensation/hybridized.hpp"
 
 namespace airybench {
 namespace {
@@ -59,7 +60,7 @@ void add_rows(std::vector<ProblemArray>& arrays, const std::string& name, const 
        point_table(directions)});
 }
 
-Eigen::MatrixXd contact_points(const Problem& problem, const ContactPoints& contact) {
+Eigen::MatrixXd point_places(const Problem& problem, const ContactPoints& contact) {
   std::vector<Eigen::Vector2d> points;
   for (int p = 0; p < contact.count; ++p) {
     const BoundaryEdge& edge = problem.mesh.boundary[contact.boundary[p]];
@@ -221,6 +222,28 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
   return arrays;
 }
 
+std::vector<ProblemArray> hybrid_arrays(const Problem& problem, int degree) {
+  const ContactPoints contact = contact_points(problem, degree);
+  const HybridizedSystem system = assemble_hybridized(problem, contact);
+  const auto& numbers = system.unknown;
+  const Eigen::MatrixXi unknowns =
+      Eigen::Map<const Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          numbers.entries().data(), static_cast<Eigen::Index>(numbers.size()), numbers.length());
+  return {
+      {"K", "N/mm", "stiffness of the unknown edge displacements, symmetric positive definite",
+       whole(lower_triangle(system.K)), true},
+      {"b", "N", "loads without the contact forces, K u = b + F_C at the last unknowns",
+       Eigen::MatrixXd(system.b)},
+      {"unknowns", "1",
+       "per row of edges: numbers of its moments' x and y from the low vertex on; on contact edges "
+       "and rollers normal and tangential, from the start on; -1: prescribed",
+       unknowns},
+      {"contact_unknowns", "1", "numbers of the last unknowns, in the order of F_C",
+       Eigen::MatrixXi(Eigen::VectorXi::LinSpaced(system.n_c,
+                                                  static_cast<int>(system.b.size()) - system.n_c,
+                                                  static_cast<int>(system.b.size()) - 1))}};
+}
+
 std::vector<ProblemArray> contact_law_arrays(const ContactPoints& points) {
   Eigen::MatrixXd mu(points.count, 1);
   for (int p = 0; p < points.count; ++p) mu(p) = points.friction_at(p);
@@ -248,7 +271,7 @@ std::vector<ProblemArray> contact_arrays(const contact::Problem& problem,
 std::vector<ProblemArray> contact_place_arrays(const Problem& body, const ContactPoints& points) {
   std::vector<ProblemArray> arrays = {{"contact_points_mm", "mm",
                                        "x, y of every contact point: an end of a contact edge",
-                                       contact_points(body, points)}};
+                                       point_places(body, points)}};
   add_rows(arrays, "contact", "F_C", known_rows(body, Known::contact_law));
   return arrays;
 }

@@ -33,6 +33,9 @@ std::vector<ProblemArray> mesh_arrays(const Mesh& mesh);
 std::vector<ProblemArray> body_arrays(const Problem& problem);
 // S, C_F, q, F, scale, unknowns; with contact C_C, F0; force_rows, force_directions per row of C_F.
 std::vector<ProblemArray> airy_arrays(const AirySystem& system);
+// K, b, unknowns of the hybridized system (hybridized.hpp), stresses of that degree; with contact
+// first_contact_unknown.
+std::vector<ProblemArray> hybrid_arrays(const Problem& problem, int degree);
 // gap and mu; zeros if there are none.
 std::vector<ProblemArray> contact_law_arrays(const ContactPoints& points);
 // D, G, gap, mu; F_C, an answer to compare with, unless `answer` is empty.

@@ -10,7 +10,6 @@
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/plan/mesh_files.hpp"
-#include "bench/plan/scene_file.hpp"
 #include "bench/records/json.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/run/adaptive_loop.hpp"
@@ -31,22 +30,6 @@
 namespace airybench {
 namespace {
 
-Method adapting_method(const std::string& name) {
-  const auto is_fit = [](const Method& method) {
-    return method.unknowns == Unknowns::edge_displacements;
-  };
-  std::string allowed;
-  for (const Method& method : methods()) {
-    if (!is_fit(method)) continue;
-    if (method.name == name) return method;
-    allowed += method.name + ", ";
-  }
-  if (is_general_name(name))
-    if (const Method method = select_methods(name).front(); is_fit(method)) return method;
-  allowed += hybrid_of_degree(2) + " and more";
-  throw UsageError(fmt::format("--adapt: by={} (allowed: {})", shortened(name), allowed));
-}
-
 // Contact groups of which every edge became free, as it faces nothing, are none of the mesh's.
 void forget_groups(const std::set<std::string>& of_mesh, BoundaryConditions& boundary,
                    std::vector<ContactPair>& contacts) {
@@ -55,32 +38,6 @@ void forget_groups(const std::set<std::string>& of_mesh, BoundaryConditions& bou
   for (ContactPair& pair : contacts)
     for (std::vector<std::string>& labels : pair.between)
       if (labels.size() > 1) std::erase_if(labels, is_gone);
-}
-
-// The scene on the mesh that it made, which has its roles; each layer is a body there, and bonded
-// faces are inner edges.
-SceneFile scene_on(const Mesh& mesh, SceneFile file) {
-  Scene& scene = file.scene;
-  for (std::size_t k = 0; k < mesh.body_names.size() && !scene.layer_materials.empty(); ++k)
-    scene.materials.try_emplace(mesh.body_names[k],
-                                scene.layer_materials[k % scene.layer_materials.size()]);
-  scene.mesh = {};
-  scene.mesh.polygon = mesh.is_polygon;
-  scene.layers = {};
-  scene.layer_materials.clear();
-  file.roles.clear();
-  file.length_unit = "mm";
-  for (const char* key : {"layers", "roles", "length_unit", "mesh"}) file.keys.erase(key);
-  file.keys.insert("materials");
-  if (mesh.is_polygon) file.keys.insert("mesh");
-  if (!scene.wall) file.keys.insert("crown_radius_mm");  // other bodies have no default
-  std::set<std::string> groups;
-  for (const BoundaryEdge& edge : mesh.boundary) groups.insert(boundary_label(mesh, edge));
-  std::erase_if(scene.contacts, &ContactPair::is_bonded);
-  if (scene.contacts.empty()) file.keys.erase("contacts");
-  forget_groups(groups, scene.boundary, scene.contacts);
-  for (LoadStep& step : scene.later_steps) forget_groups(groups, step.boundary, step.contacts);
-  return file;
 }
 
 // What records that stay refer to is not replaced.
@@ -175,6 +132,46 @@ void print(const Json& said, const std::string& name) {
 
 }  // namespace
 
+Method adapting_method(const std::string& name) {
+  const auto is_fit = [](const Method& method) {
+    return method.unknowns == Unknowns::edge_displacements;
+  };
+  std::string allowed;
+  for (const Method& method : methods()) {
+    if (!is_fit(method)) continue;
+    if (method.name == name) return method;
+    allowed += method.name + ", ";
+  }
+  if (is_general_name(name))
+    if (const Method method = select_methods(name).front(); is_fit(method)) return method;
+  allowed += hybrid_of_degree(2) + " and more";
+  throw UsageError(fmt::format("--adapt: by={} (allowed: {})", shortened(name), allowed));
+}
+
+SceneFile scene_on(const Mesh& mesh, SceneFile file) {
+  Scene& scene = file.scene;
+  for (std::size_t k = 0; k < mesh.body_names.size() && !scene.layer_materials.empty(); ++k)
+    scene.materials.try_emplace(mesh.body_names[k],
+                                scene.layer_materials[k % scene.layer_materials.size()]);
+  scene.mesh = {};
+  scene.mesh.polygon = mesh.is_polygon;
+  scene.layers = {};
+  scene.layer_materials.clear();
+  file.roles.clear();
+  file.length_unit = "mm";
+  for (const char* key : {"layers", "roles", "length_unit", "mesh"}) file.keys.erase(key);
+  file.keys.insert("materials");
+  if (mesh.is_polygon) file.keys.insert("mesh");
+  if (!scene.wall) file.keys.insert("crown_radius_mm");  // other bodies have no default
+  std::set<std::string> groups;
+  for (const BoundaryEdge& edge : mesh.boundary) groups.insert(boundary_label(mesh, edge));
+  std::erase_if(scene.contacts, &ContactPair::is_bonded);
+  if (scene.contacts.empty()) file.keys.erase("contacts");
+  forget_groups(groups, scene.boundary, scene.contacts);
+  for (LoadStep& step : scene.later_steps) forget_groups(groups, step.boundary, step.contacts);
+  return file;
+}
+
 PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
   const std::filesystem::path& out = options.output.folder;
   PosedScene refined = level_0;
@@ -190,10 +187,8 @@ PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
   return refined;
 }
 
-void check_adapting_method(const std::string& by) { adapting_method(by); }
-
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
-  check_adapting_method(options.run.adapt.by);
+  adapting_method(options.run.adapt.by);  // a usage error here, not in the loop's process
   const Mesh& mesh = start.body()->mesh;
   const std::string name = mesh.name + "/" + start.scene_name;
   const SceneFile on_mesh = scene_on(mesh, scene_file_of(start.scene_definition, name));

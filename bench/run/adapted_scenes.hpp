@@ -8,6 +8,7 @@
 
 #include "bench/plan/options.hpp"
 #include "bench/plan/plan.hpp"
+#include "bench/plan/scene_file.hpp"
 
 namespace airybench {
 
@@ -16,7 +17,10 @@ struct AdaptedScenes {
   std::string why_not_reached;     // one line; empty if all goals are reached
 };
 
-void check_adapting_method(const std::string& by);  // throws UsageError
+Method adapting_method(const std::string& name);  // throws UsageError
+// The scene on the mesh that it made (layers are bodies there, bonded faces inner edges): without
+// what would change that mesh again.
+SceneFile scene_on(const Mesh& mesh, SceneFile file);
 // Prints progress to standard error. Throws UsageError, FileError, Interrupted.
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 

@@ -66,22 +66,23 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   if (settings_.memory_limit_bytes)
     limit.emplace(heap::live_bytes() + *settings_.memory_limit_bytes);
   TotalError error;
+  AdaptiveLevel level;
   solve_load_steps(method_.solve, system, control,
                    [&](int step, const ContactSystem& posed, const Solution& answer) {
                      limit.reset();
                      judge_step(step, *problem, posed, answer, error);
+                     if (settings_.keeps_answers) level.answers.push_back({posed, answer});
                    });
   limit.reset();
   if (!ended_.empty()) return {};
   time_s_ += seconds_since(start);
-  AdaptiveLevel level;
   level.mesh = mesh_;
   level.number = static_cast<int>(history_.size());
   level.unknowns = mesh_sizes(mesh_).n_phi;
   level.time_s = time_s_;
   level.error = error.relative();
   if (!error.flaw().empty()) ended_ = "nothing can be said of the error: " + error.flaw();
-  parts_ = error.parts();
+  level.parts = parts_ = error.parts();
   of_chords_ = error.parts_of_chords();
   squared_ = std::accumulate(parts_.begin(), parts_.end(), 0.0);
   edges_ = problem->edges;

@@ -33,22 +33,31 @@ namespace airybench {
 struct AdaptiveSettings {
   std::vector<AdaptGoal> goals;  // met in this order
   // 0 < marking ≤ 1; 1: uniform refinement; empty: cuts by expected parts.
-  std::optional<double> marking;
+  std::optional<double> marking = {};
   // An error that is a goal is met once the largest stress, if it is bounded, is not off by more
   // than this, relative (part_answer.hpp), or is no better known on finer meshes.
-  std::optional<double> stress_error;
-  double timeout_s = 900;                          // per solve
-  std::optional<std::int64_t> memory_limit_bytes;  // per solve
+  std::optional<double> stress_error = {};
+  double timeout_s = 900;                               // per solve
+  std::optional<std::int64_t> memory_limit_bytes = {};  // per solve
   int threads = 1;
+  bool keeps_answers = false;  // AdaptiveLevel::answers
+};
+
+// Of a load step.
+struct StepAnswer {
+  ContactSystem system;
+  Solution solution;
 };
 
 struct AdaptiveLevel {
   Mesh mesh;
-  int number = 0;                 // 0: the initial mesh
-  int unknowns = 0;               // n_φ
-  std::optional<double> error;    // TotalError::relative(); empty: see why_ended()
-  std::optional<AdaptGoal> goal;  // the last that it, and no earlier level, reaches
-  double time_s = 0;              // of all levels so far
+  int number = 0;                        // 0: the initial mesh
+  int unknowns = 0;                      // n_φ
+  std::optional<double> error;           // TotalError::relative(); empty: see why_ended()
+  std::optional<AdaptGoal> goal;         // the last that it, and no earlier level, reaches
+  double time_s = 0;                     // of all levels so far
+  std::vector<double> parts = {};        // of the squared error, per triangle
+  std::vector<StepAnswer> answers = {};  // if they are kept
 };
 
 class AdaptiveLoop {

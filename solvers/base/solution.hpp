@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -141,6 +142,8 @@ struct Breakdown : std::runtime_error {
 class Deadline {
  public:
   Deadline() = default;  // none
+  // While true, every deadline of the process has passed. A signal handler may set it.
+  static inline std::atomic<bool> all_passed = false;
   static Deadline after(double seconds) {
     constexpr double never = 1e9;  // the clock's integers end soon after
     Deadline deadline;
@@ -150,7 +153,10 @@ class Deadline {
                         std::chrono::duration<double>(seconds));
     return deadline;
   }
-  bool passed() const { return end_ && std::chrono::steady_clock::now() > *end_; }
+  bool passed() const {
+    return all_passed.load(std::memory_order_relaxed) ||
+           (end_ && std::chrono::steady_clock::now() > *end_);
+  }
   double remaining_s() const {  // infinity: there is none
     if (!end_) return std::numeric_limits<double>::infinity();
     return std::chrono::duration<double>(*end_ - std::chrono::steady_clock::now()).count();
