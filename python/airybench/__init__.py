@@ -1,0 +1,115 @@
+"""Contact with dry friction in stresses: problems, solvers, and the judge of what they return.
+
+    import airybench as ab
+    problem = ab.Problem("Mesh3", friction=0.3)
+    solution = problem.solve("HYBRID", degree=2)
+    problem.judge(solution)["error_total"]
+
+Lengths are in mm, forces in N per mm of thickness, stresses in MPa, times in seconds. Unusable input
+raises InputError, whose text is the line that bench prints. Arrays are views that cannot be written;
+each keeps its owner alive. docs/python.md is the tutorial.
+"""
+from __future__ import annotations
+
+import io
+import sys
+import tempfile
+import warnings
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from . import _airybench
+from ._airybench import (Arrays, Breakdown, InputError, Level, Levels, Method, Problem, Solution, Timeout,
+                         __version__, contact, methods)
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure
+
+__all__ = ["Arrays", "Breakdown", "InputError", "Level", "Levels", "Method", "Problem", "Solution",
+           "Timeout", "bench", "contact", "method", "methods", "read"]
+sys.modules[__name__ + ".contact"] = contact
+
+if core := _airybench._better_blas_core():
+    warnings.warn(f"OpenBLAS does not know this processor and is slow: set OPENBLAS_CORETYPE={core} "
+                  "before Python starts")
+
+
+def method(name: str, *, reads: str = "condensed", summary: str = "") -> Callable[[Callable], Method]:
+    """Makes a callable a method, for Problem.solve() and bench().
+
+    reads: what it gets and returns.
+    condensed: a contact.Problem; returns r, N, of its rows. The rest is HYBRID's.
+    airy: the arrays of Problem.airy_system(); returns x with S x + C_F' l + C_C' l' = q.
+    body: the arrays of Problem.body(); returns u, mm: a row x, y per vertex, then per edge, at its
+    middle.
+    """
+    def decorate(function: Callable) -> Method:
+        return _airybench._method(function, name, reads, summary or (function.__doc__ or name).split("\n")[0])
+    return decorate
+
+
+def bench(mesh: str | Iterable[str] = "Mesh0", methods: str | Method | Iterable[str | Method] = (),
+          out: str | Path = "results/latest", **options: object) -> pandas.DataFrame:
+    """Measures methods on meshes, each case in a process of its own, as the command bench does.
+
+    methods: names, or what @method made; none: those of the paper. options: those of bench, with _
+    for -: scene="scene.json", repetitions=3, adapt="1%", degree=2, fields=True. Records, judged and
+    timed, go to the folder `out`; returned are those of this run, as of read().
+    """
+    def listed(items: object) -> list:
+        return [items] if isinstance(items, (str, Path, Method)) else list(items)
+    chosen = listed(methods)
+    arguments = [f"--mesh={','.join(map(str, listed(mesh)))}", f"--out={out}"]
+    if chosen:
+        arguments.append("--method=" + ",".join(m.name if isinstance(m, Method) else m for m in chosen))
+    for key, value in options.items():
+        option = "--" + key.replace("_", "-")
+        arguments += [option] * bool(value) if isinstance(value, bool) else [f"{option}={value}"]
+    names = _airybench._bench(arguments, [m for m in chosen if isinstance(m, Method)])
+    table = read(out)
+    return table[table.case_name.isin(names)].reset_index(drop=True)
+
+
+def read(results: str | Path) -> pandas.DataFrame:
+    """The records of a folder of results, a row per case; results/README.md has the columns."""
+    import pandas
+
+    records = _plots("records")
+    file = Path(results)
+    if file.is_dir():
+        file = file / "records.jsonl"
+        file = file if file.exists() else file.with_name("records.jsonl.gz")
+    try:
+        return pandas.DataFrame(records.read_lines(file))
+    except records.RecordsError as error:
+        raise InputError(str(error)) from None
+
+
+def _plots(name: str):
+    """A module of the project's drawings."""
+    folder = _airybench._data_folder("plots")
+    if folder not in sys.path:
+        sys.path.append(folder)
+    return __import__(name)
+
+
+def _pressure(self: Solution) -> pandas.DataFrame:
+    """Pressure, shear, gap and slip along the contact faces, a row per point."""
+    import pandas
+
+    return pandas.read_csv(io.StringIO(self._faces_csv()))
+
+
+def _plot(self: Solution) -> Figure:
+    """Draws stresses, displaced outline and contact, as the pictures of bench --fields."""
+    import matplotlib.pyplot as plt
+
+    fields, gallery = _plots("fields"), _plots("gallery")
+    with tempfile.TemporaryDirectory() as folder, plt.rc_context(gallery.STYLE):
+        name, results = self._write(folder), Path(folder)
+        return gallery.compose([[fields.read_fields(results, name, fields.recorded(results))]])
+
+
+Solution.pressure, Solution.plot = _pressure, _plot

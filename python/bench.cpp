@@ -1,0 +1,166 @@
+// Methods that Python writes, and runs of bench.
+#include <fmt/format.h>
+#include <pthread.h>
+
+#include <atomic>
+
+#include "bench/commands/command_line.hpp"
+#include "bench/commands/planned_cases.hpp"
+#include "bench/external/answered.hpp"
+#include "bench/external/declaration.hpp"
+#include "bench/measure/environment.hpp"
+#include "bench/run/runner.hpp"
+#include "python/bindings.hpp"
+#include "solvers/base/blas_library.hpp"
+#include "solvers/methods.hpp"
+#include "support/data_folder.hpp"
+#include "support/errors.hpp"
+#include "support/this_process.hpp"
+
+namespace airybench::python {
+namespace {
+
+// A callable of Python's, called by a thread that does not hold the interpreter's lock. References
+// to it are counted under the lock.
+class Callable {
+ public:
+  explicit Callable(py::function function)
+      : function_(new py::function(std::move(function)), [](py::function* last) {
+          const py::gil_scoped_acquire acquire;
+          delete last;
+        }) {}
+
+  template <typename Result, typename Argument>
+  Result operator()(const Argument& argument) const {
+    const py::gil_scoped_acquire acquire;
+    try {
+      return (*function_)(argument).template cast<Result>();
+    } catch (py::error_already_set& error) {
+      // Of a child process nobody else tells.
+      throw std::runtime_error(first_line(error));
+    }
+  }
+
+ private:
+  static std::string first_line(py::error_already_set& error) {
+    keep_current_exception();
+    return error.type().attr("__name__").cast<std::string>() + ": " +
+           std::string(py::str(error.value()));
+  }
+  std::shared_ptr<py::function> function_;
+};
+
+Eigen::VectorXd of_size(Eigen::VectorXd answer, Eigen::Index size, const char* what) {
+  if (answer.size() != size)
+    throw std::runtime_error(
+        fmt::format("{}: {} numbers (allowed: {})", what, answer.size(), size));
+  return answer;
+}
+
+Method method_of_callable(const py::function& function, const std::string& name,
+                          const std::string& reads, std::string summary) {
+  if (!is_plain_program_name(name))
+    throw UsageError(
+        fmt::format("method: name '{}' (allowed: letters, digits, '-', '_', '.')", name));
+  if (std::ranges::count(methods(), name, &Method::name) > 0)
+    throw UsageError(fmt::format("method: name '{}': one of bench's own has it", name));
+  const Callable call(function);
+  Method method;
+  if (reads == "condensed") {
+    method = airybench::method_of(
+        ContactLaw([call](const contact::Problem& problem) {
+          // A copy: Python may keep it.
+          auto r = call.operator()<Eigen::VectorXd>(std::make_shared<contact::Problem>(problem));
+          return Eigen::VectorXd(-of_size(std::move(r), problem.points.size(), "r"));
+        }),
+        name, summary);
+  } else if (reads == "airy") {
+    method = airybench::method_of(
+        AiryUnknowns([call](const AirySystem& system) {
+          auto x = call.operator()<Eigen::VectorXd>(
+              arrays_of(system.problem->mesh.name + ": Airy system", airy_arrays(system)));
+          return of_size(std::move(x), system.n(), "x");
+        }),
+        name, summary);
+  } else if (reads == "body") {
+    method = airybench::method_of(QuadraticDisplacement([call](const Problem& problem) {
+                                    auto u = call.operator()<Eigen::MatrixX2d>(
+                                        body_arrays_of(problem, problem.mesh.name + ": body"));
+                                    of_size(u.col(0), displacement_nodes(problem), "rows of u");
+                                    return u;
+                                  }),
+                                  name, summary);
+  } else {
+    throw UsageError(fmt::format("method: reads: '{}' (allowed: condensed, airy, body)", reads));
+  }
+  method.program = std::string("Python ") + PY_VERSION;
+  return method;
+}
+
+// A process that bench forks has the thread and the interpreter of its parent, as from os.fork().
+std::atomic<bool> is_running_bench = false;
+void tell_python_of_forks() {
+  pthread_atfork(
+      [] {
+        if (is_running_bench) PyOS_BeforeFork();
+      },
+      [] {
+        if (is_running_bench) PyOS_AfterFork_Parent();
+      },
+      [] {
+        if (is_running_bench) PyOS_AfterFork_Child();
+      });
+}
+
+// The names of its records. Holds the lock: cases run in other processes.
+std::vector<std::string> run_bench(const std::vector<std::string>& arguments,
+                                   const std::vector<Method>& added) {
+  std::vector<const char*> words = {"bench"};
+  for (const std::string& argument : arguments) words.push_back(argument.c_str());
+  const Options options = parse_options(static_cast<int>(words.size()), words.data());
+  if (options.limits.memory_limit_bytes)
+    throw UsageError("memory_limit: the heap is not counted in Python (allowed: bench itself)");
+  struct Running {
+    Running() { is_running_bench = true; }
+    ~Running() { is_running_bench = false; }
+  } running;
+  Interruptible interruptible;
+  const PlannedCases planned = planned_cases(options, added);
+  set_threads(options.run.cases.threads);
+  Context context = context_of_run(options);
+  context["cases_planned"] = std::to_string(planned.whole.size());
+  context["plan_sha256"] = fingerprint(planned.whole);
+  return run_cases(planned.part, options.limits, options.output, context).names;
+}
+
+}  // namespace
+
+Method method_of(const py::object& given, int degree) {
+  if (py::isinstance<Method>(given)) return given.cast<Method>();
+  const auto name = given.cast<std::string>();
+  std::vector<Method> found = select_methods(name, {}, degree);
+  if (found.size() != 1)
+    throw UsageError(fmt::format("method: '{}': {} methods (allowed: one)", name, found.size()));
+  return std::move(found.front());
+}
+
+void bind_bench(py::module_& module) {
+  tell_python_of_forks();
+  py::class_<Method>(module, "Method", "A way to solve a problem; see methods() and method().")
+      .def_readonly("name", &Method::name)
+      .def_readonly("family", &Method::family)
+      .def_readonly("summary", &Method::summary)
+      .def_readonly("degree", &Method::degree, "Of its stresses.")
+      .def_readonly("in_paper", &Method::in_paper)
+      .def("__repr__", [](const Method& self) {
+        return fmt::format("<airybench.Method {}: {}>", self.name, self.summary);
+      });
+  module.def("methods", &methods, "All named methods, as bench list prints them.");
+  module.def("_method", &method_of_callable, py::arg("function"), py::arg("name"), py::arg("reads"),
+             py::arg("summary"));
+  module.def("_bench", &run_bench, py::arg("arguments"), py::arg("methods"));
+  module.def("_better_blas_core", &better_blas_core);
+  module.def("_data_folder", [](const std::string& name) { return data_folder(name).string(); });
+}
+
+}  // namespace airybench::python
