@@ -33,27 +33,16 @@ class Callable {
   template <typename Result, typename Argument>
   Result operator()(const Argument& argument) const {
     const py::gil_scoped_acquire acquire;
-    try {
-      return (*function_)(argument).template cast<Result>();
-    } catch (py::error_already_set& error) {
-      // Of a child process nobody else tells.
-      throw std::runtime_error(first_line(error));
-    }
+    return (*function_)(argument).template cast<Result>();
   }
 
  private:
-  static std::string first_line(py::error_already_set& error) {
-    keep_current_exception();
-    return error.type().attr("__name__").cast<std::string>() + ": " +
-           std::string(py::str(error.value()));
-  }
   std::shared_ptr<py::function> function_;
 };
 
 Eigen::VectorXd of_size(Eigen::VectorXd answer, Eigen::Index size, const char* what) {
   if (answer.size() != size)
-    throw std::runtime_error(
-        fmt::format("{}: {} numbers (allowed: {})", what, answer.size(), size));
+    throw InputError(fmt::format("{}: {} numbers (allowed: {})", what, answer.size(), size));
   return answer;
 }
 
@@ -68,27 +57,27 @@ Method method_of_callable(const py::function& function, const std::string& name,
   Method method;
   if (reads == "condensed") {
     method = airybench::method_of(
-        ContactLaw([call](const contact::Problem& problem) {
+        ContactLaw(kept([call](const contact::Problem& problem) {
           // A copy: Python may keep it.
           auto r = call.operator()<Eigen::VectorXd>(std::make_shared<contact::Problem>(problem));
           return Eigen::VectorXd(-of_size(std::move(r), problem.points.size(), "r"));
-        }),
+        })),
         name, summary);
   } else if (reads == "airy") {
     method = airybench::method_of(
-        AiryUnknowns([call](const AirySystem& system) {
+        AiryUnknowns(kept([call](const AirySystem& system) {
           auto x = call.operator()<Eigen::VectorXd>(
               arrays_of(system.problem->mesh.name + ": Airy system", airy_arrays(system)));
           return of_size(std::move(x), system.n(), "x");
-        }),
+        })),
         name, summary);
   } else if (reads == "body") {
-    method = airybench::method_of(QuadraticDisplacement([call](const Problem& problem) {
+    method = airybench::method_of(QuadraticDisplacement(kept([call](const Problem& problem) {
                                     auto u = call.operator()<Eigen::MatrixX2d>(
                                         body_arrays_of(problem, problem.mesh.name + ": body"));
                                     of_size(u.col(0), displacement_nodes(problem), "rows of u");
                                     return u;
-                                  }),
+                                  })),
                                   name, summary);
   } else {
     throw UsageError(fmt::format("method: reads: '{}' (allowed: condensed, airy, body)", reads));

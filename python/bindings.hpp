@@ -112,18 +112,17 @@ class NotesAsWarnings {
 
 // A name of bench list, "HYBRID:k=2", or a Method of Python's. Throws InputError.
 Method method_of(const py::object& given, int degree = 1);
-// A solver takes exceptions for its own failure: what a function of ours or of Python's throws is
+// A solver takes an exception for its own failure: what a function of ours or of Python's throws is
 // kept, and thrown again by rethrow_kept() in the same thread.
-void keep_current_exception();
+[[noreturn]] void keep_current_exception();
 void rethrow_kept();
 template <typename Function>
 auto kept(Function function) {
   return [function = std::move(function)](const auto& problem) {
     try {
       return function(problem);
-    } catch (const std::exception& error) {
+    } catch (const std::exception&) {
       keep_current_exception();
-      throw std::runtime_error(error.what());
     }
   };
 }

@@ -38,7 +38,15 @@ thread_local std::exception_ptr kept_exception;
 
 }  // namespace
 
-void keep_current_exception() { kept_exception = std::current_exception(); }
+void keep_current_exception() {
+  kept_exception = std::current_exception();
+  try {
+    throw;
+  } catch (const std::exception& error) {  // of Python's, type and text are the first line
+    const std::string text = error.what();
+    throw std::runtime_error(text.substr(0, text.find('\n')));
+  }
+}
 
 void rethrow_kept() {
   if (kept_exception) std::rethrow_exception(std::exchange(kept_exception, nullptr));

@@ -1,0 +1,125 @@
+"""Methods written in Python, and runs of bench from it.  python3 -m unittest FILE"""
+import ctypes
+import os
+import tempfile
+import unittest
+
+import numpy as np
+import scipy.sparse as sparse
+import scipy.sparse.linalg
+
+import airybench as ab
+
+
+@ab.method("MINE")
+def mine(c):
+    """Our own Gauss-Seidel."""
+    return ab.contact.solve(c, "gauss-seidel").r
+
+
+@ab.method("WRONG")
+def wrong(c):
+    return 1.001 * ab.contact.solve(c).r
+
+
+@ab.method("RAISES")
+def raises(c):
+    raise KeyError("no such contact")
+
+
+@ab.method("SHORT")
+def short(c):
+    return np.zeros(2)
+
+
+@ab.method("ENDS")
+def ends(c):
+    os._exit(7)
+
+
+@ab.method("SEGFAULT")
+def segfault(c):
+    ctypes.string_at(0)
+
+
+@ab.method("AIRY", reads="airy")
+def airy(a):
+    kkt = sparse.bmat([[a.S, a.C_F.T], [a.C_F, None]], format="csc")
+    return scipy.sparse.linalg.splu(kkt).solve(np.concatenate([a.q, a.F]))[:a.S.shape[0]]
+
+
+@ab.method("LINEAR", reads="body")
+def linear(body):
+    """Of a body held everywhere: the displacement of its boundary, which is linear in x and y."""
+    start = body.vertices_mm[body.boundary[:, 0]]
+    given = body.u0_mm[:, :2]
+    plane = np.linalg.lstsq(np.column_stack([np.ones(len(start)), start]), given, rcond=None)[0]
+    middles = body.vertices_mm[body.edges].mean(axis=1)
+    points = np.concatenate([body.vertices_mm, middles])
+    return np.column_stack([np.ones(len(points)), points]) @ plane
+
+
+class MethodTest(unittest.TestCase):
+    def test_a_contact_law(self) -> None:
+        problem = ab.Problem("Mesh1", friction=0.3)
+        s = problem.solve(mine)
+        self.assertEqual((mine.name, mine.summary, s.method), ("MINE", "Our own Gauss-Seidel.", "MINE"))
+        np.testing.assert_allclose(s.forces, problem.solve().forces, atol=1e-6 * abs(s.forces).max())
+        self.assertEqual(problem.judge(s)["status"], "ok")
+        self.assertEqual(problem.judge(problem.solve(wrong))["status"], "inaccurate")
+
+    def test_on_a_path_each_step_is_its(self) -> None:
+        steps = [{"displacement_mm": [d, d / 4]} for d in (0.01, 0.02, 0.01)]
+        problem = ab.Problem("Mesh0", {"load_steps": steps, "friction": 0.3})
+        self.assertEqual(problem.judge(problem.solve(mine))["status"], "ok")
+        self.assertEqual(problem.judge(problem.solve(wrong))["status"], "inaccurate")
+
+    def test_the_airy_system(self) -> None:
+        problem = ab.Problem("Mesh0", {"mesh": {"keep_contact_edges": 0}, "body_force_N_per_mm3": [0, -0.01]})
+        record = problem.judge(problem.solve(airy))
+        self.assertEqual(record["status"], "ok")
+        self.assertLess(record["error_stress"], 1e-6)
+
+    def test_a_displacement(self) -> None:
+        stretched = {"at_mm": [[0, 0], [10, 0]], "values": [[0, 0], [0.01, 0.002]]}
+        problem = ab.Problem("Mesh0", {"mesh": {"keep_contact_edges": 0, "keep_force_edges": 0},
+                                       "boundary": {"displacement": {"displacement_mm": stretched}}})
+        record = problem.judge(problem.solve(linear))
+        self.assertEqual(record["status"], "ok")
+        self.assertLess(record["error_total"], 1e-9)
+
+    def test_what_a_callable_raises_is_raised(self) -> None:
+        problem = ab.Problem("Mesh0")
+        with self.assertRaisesRegex(KeyError, "no such contact"):
+            problem.solve(raises)
+        with self.assertRaisesRegex(ab.InputError, "r: 2 numbers"):
+            problem.solve(short)
+        self.assertEqual(problem.solve().status, "ok")
+
+
+class BenchTest(unittest.TestCase):
+    def test_each_case_is_a_record(self) -> None:
+        with tempfile.TemporaryDirectory() as out:
+            table = ab.bench(mesh=["Mesh0", "Mesh1"], methods=["HYBRID", mine, wrong, raises, ends, segfault],
+                             out=out, repetitions=2)
+            again = ab.read(out)
+        self.assertEqual(len(table), 12)
+        self.assertEqual(table.case_name.tolist(), again.case_name.tolist())
+        status = dict(zip(table.case_name, table.status))
+        reason = dict(zip(table.case_name, table.status_reason))
+        expected = {"HYBRID": "ok", "MINE": "ok", "WRONG": "inaccurate", "RAISES": "crashed", "ENDS": "crashed",
+                    "SEGFAULT": "crashed"}
+        self.assertEqual(status, {f"{mesh}/default/{method}": end for mesh in ("Mesh0", "Mesh1")
+                                  for method, end in expected.items()})
+        self.assertIn("KeyError: 'no such contact'", reason["Mesh0/default/RAISES"])
+        self.assertIn("SIGSEGV", reason["Mesh0/default/SEGFAULT"])
+        ok = table[table.status == "ok"]
+        self.assertTrue((ok.time_s > 0).all() and (ok.peak_rss_bytes > 0).all())
+        self.assertTrue((ok.error_force < 1e-6).all())
+
+    def test_options_are_those_of_bench(self) -> None:
+        with tempfile.TemporaryDirectory() as out:
+            table = ab.bench("Mesh0", "HYBRID", out=out, adapt="5%", degree=2, repetitions=1, fields=True)
+            self.assertLessEqual(table.error_total.min(), 0.05)
+            with self.assertRaisesRegex(ab.InputError, "memory_limit"):
+                ab.bench("Mesh0", "HYBRID", out=out, memory_limit=100)
