@@ -50,6 +50,13 @@ struct ContactPoints {
   int opposite_of(int point) const {
     return opposite.empty() ? no_point : opposite[static_cast<std::size_t>(point)];
   }
+  // Per row of Mesh::boundary, of so many: its first point; no_point: it has none.
+  std::vector<int> first_points(std::size_t rows) const {
+    std::vector<int> first(rows, no_point);
+    for (int p = 0; p < count; p += per_edge)
+      first[static_cast<std::size_t>(boundary[static_cast<std::size_t>(p)])] = p;
+    return first;
+  }
   double friction_at(int point) const {
     return friction.empty() ? 0 : friction[static_cast<std::size_t>(point)];
   }

@@ -9,8 +9,7 @@ namespace {
 
 // The points of an edge that faces another match its points in the other order.
 void pair_points(const Problem& problem, ContactPoints& contact) {
-  std::vector<int> first(problem.mesh.boundary.size(), ContactPoints::no_point);
-  for (int p = 0; p < contact.count; p += contact.per_edge) first[contact.boundary[p]] = p;
+  const std::vector<int> first = contact.first_points(problem.mesh.boundary.size());
   contact.opposite.assign(static_cast<std::size_t>(contact.count), ContactPoints::no_point);
   for (int p = 0; p < contact.count; ++p)
     if (const int row = problem.opposite_of(contact.boundary[p]); row != Problem::no_row)

@@ -34,11 +34,8 @@ class PartReader {
         error_(fields.error),
         intervals_(fields.intervals),
         side_(boundary_sides(problem_.edges)),
-        singular_(singular_places(system_, degree_, F_C_)) {
-    point_of_row_.assign(mesh_.boundary.size(), 0);
-    for (int p = 0; p < system_.contact.count; p += system_.contact.per_edge)
-      point_of_row_[static_cast<std::size_t>(system_.contact.boundary[p])] = p;
-  }
+        first_point_(system_.contact.first_points(mesh_.boundary.size())),
+        singular_(singular_places(system_, degree_, F_C_)) {}
 
   PartAnswer answer(const std::optional<DisplacementField>& w) const {
     PartAnswer answer;
@@ -81,7 +78,7 @@ class PartReader {
     for (const std::vector<int>& chain : boundary_chains(mesh_, BoundaryRole::contact)) {
       double start = 0;
       for (const int row : chain) {
-        const int first = point_of_row_[static_cast<std::size_t>(row)];
+        const int first = first_point_[static_cast<std::size_t>(row)];
         AlongEdge normal(n), tangential = AlongEdge::Zero(n);
         for (int j = 0; j < n; ++j) {
           normal(j) = F_C_(m * (first + j));
@@ -164,7 +161,7 @@ class PartReader {
       FaceAnswer answer;
       answer.labels = face.labels;
       for (const int row : face.rows) {
-        const int first = point_of_row_[static_cast<std::size_t>(row)];
+        const int first = first_point_[static_cast<std::size_t>(row)];
         const double whole = length(row);
         for (int p = first; p < first + n; ++p) {
           answer.normal_N += F_C_(m * p);
@@ -276,7 +273,7 @@ class PartReader {
   const ConstitutiveError* error_;
   const ContactIntervals* intervals_;
   std::vector<TriangleSide> side_;  // per row of Mesh::boundary
-  std::vector<int> point_of_row_;   // its first contact point
+  std::vector<int> first_point_;    // the same
   std::vector<SingularPlace> singular_;
 };
 

@@ -21,10 +21,7 @@ class Wedges {
         mesh_(problem_.mesh),
         degree_(degree),
         states_(contact_states(system.contact, F_C)),
-        point_of_row_(mesh_.boundary.size(), 0) {
-    for (int p = 0; p < system.contact.count; p += system.contact.per_edge)
-      point_of_row_[static_cast<std::size_t>(system.contact.boundary[p])] = p;
-  }
+        first_point_(system.contact.first_points(mesh_.boundary.size())) {}
 
   // Between two rows of Mesh::boundary, as the body is walked.
   std::optional<std::string> what_is_singular(int before, int after) const {
@@ -57,7 +54,7 @@ class Wedges {
         break;
     }
     const int p =
-        point_of_row_[static_cast<std::size_t>(row)] + (at_end ? system_.contact.per_edge - 1 : 0);
+        first_point_[static_cast<std::size_t>(row)] + (at_end ? system_.contact.per_edge - 1 : 0);
     switch (states_[static_cast<std::size_t>(p)]) {
       case ContactState::open:
         return Hold::free;
@@ -89,7 +86,7 @@ class Wedges {
   const Mesh& mesh_;
   int degree_;
   std::vector<ContactState> states_;
-  std::vector<int> point_of_row_;  // its first contact point
+  std::vector<int> first_point_;  // per row of Mesh::boundary
 };
 
 }  // namespace

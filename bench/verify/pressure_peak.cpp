@@ -27,14 +27,14 @@ class Face {
 
   // Its highest pressure is that of the edges asked for.
   Face(const ContactSystem& system, const Eigen::VectorXd& F_C, const std::vector<int>& rows,
-       const std::vector<int>& point_of_row, const std::vector<bool>& asked) {
+       const std::vector<int>& first_point, const std::vector<bool>& asked) {
     const Mesh& mesh = system.problem->mesh;
     const int m = system.contact.components, n = system.contact.per_edge;
     is_closed_ = mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
     for (const int row : rows) {
       const double length = system.problem->frame_at(row, 0, 1).length_mm;
       AlongEdge normal_forces(n);
-      for (int j = 0; j < n; ++j) normal_forces(j) = F_C(m * (point_of_row[row] + j));
+      for (int j = 0; j < n; ++j) normal_forces(j) = F_C(m * (first_point[row] + j));
       edges_.push_back({row, length_, length, pressure_along(*system.problem, row, normal_forces)});
       length_ += length;
       if (!asked[row]) continue;
@@ -105,18 +105,16 @@ class Places {
         asked_(asked),
         problem_(*system.problem),
         states_(contact_states(system.contact, F_C)),
-        point_of_row_(problem_.mesh.boundary.size(), 0),
+        first_point_(system.contact.first_points(problem_.mesh.boundary.size())),
         before_(problem_.mesh.vertices.size(), Problem::no_row),
         after_(before_),
         side_(boundary_sides(problem_.edges)) {
     const Mesh& mesh = problem_.mesh;
-    for (int p = 0; p < system.contact.count; p += system.contact.per_edge)
-      point_of_row_[system.contact.boundary[p]] = p;
     for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
       before_[mesh.boundary[row].vertices[1]] = after_[mesh.boundary[row].vertices[0]] = row;
   }
 
-  const std::vector<int>& point_of_row() const { return point_of_row_; }
+  const std::vector<int>& first_point() const { return first_point_; }
 
   // Those in contact, with more pressure than this, of the edges asked for.
   std::vector<Place> on(const Face& face, double open_MPa) const {
@@ -218,7 +216,7 @@ class Places {
   }
   bool sticks(int row) const {
     for (int i = 0; i < system_.contact.per_edge; ++i)
-      if (states_[static_cast<std::size_t>(point_of_row_[row] + i)] != ContactState::stick)
+      if (states_[static_cast<std::size_t>(first_point_[row] + i)] != ContactState::stick)
         return false;
     return true;
   }
@@ -227,7 +225,7 @@ class Places {
   const std::vector<bool>& asked_;
   const Problem& problem_;
   std::vector<ContactState> states_;
-  std::vector<int> point_of_row_, before_, after_;
+  std::vector<int> first_point_, before_, after_;
   std::vector<TriangleSide> side_;
 };
 
@@ -250,7 +248,7 @@ PressurePeak pressure_peak(const ContactSystem& system, const Eigen::VectorXd& F
   double highest = 0, highest_of_all = 0;
   for (const std::vector<int>& rows :
        boundary_chains(system.problem->mesh, BoundaryRole::contact)) {
-    faces.emplace_back(system, F_C, rows, places.point_of_row(), asked);
+    faces.emplace_back(system, F_C, rows, places.first_point(), asked);
     highest = std::max(highest, faces.back().highest_MPa());
     for (const Face::Edge& edge : faces.back().edges())
       highest_of_all = std::max(highest_of_all, edge.pressure.maxCoeff());
