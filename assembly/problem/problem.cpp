@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "assembly/elements/bernstein.hpp"
 #include "assembly/elements/edge_forces.hpp"
 
 namespace airybench {
@@ -181,19 +180,13 @@ EdgeCondition Problem::condition(int boundary_row) const {
 }
 
 EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
-  EdgeMoments moments = EdgeMoments::Zero(2, degree + 1);
-  const auto& u0 = loads.displacement_mm;
-  if (!u0) return moments;
-  if (follows_curve(boundary_row, degree)) {
-    moments = CurvedSide<double>(curve_of(boundary_row, degree), degree)
-                  .moments_of([&](const Eigen::Vector2d& x) { return u0(x, boundary_row); });
-  } else {
-    const auto [start, end] = mesh.boundary[boundary_row].vertices;
-    const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
-    const std::array<Eigen::Vector2d, 3> coefficients =
-        edge_coefficients(u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
-    for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of(degree, j, coefficients);
-  }
+  if (!loads.displacement_mm) return EdgeMoments::Zero(2, degree + 1);
+  const auto [start, end] = mesh.boundary[boundary_row].vertices;
+  const SideCurve curve =
+      follows_curve(boundary_row, degree) ? curve_of(boundary_row, degree) : SideCurve();
+  EdgeMoments moments = moments_along(
+      mesh.vertices[start], mesh.vertices[end], curve, degree,
+      [&](const Eigen::Vector2d& x) { return loads.displacement_mm(x, boundary_row); });
   if (is_roller(boundary_row))
     for (int j = 0; j <= degree; ++j) {
       const Eigen::Vector2d n = frame_of_moment(boundary_row, degree, j).normal;

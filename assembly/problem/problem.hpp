@@ -26,6 +26,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "assembly/elements/bernstein.hpp"
 #include "assembly/elements/curved_side.hpp"
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/elements/elasticity.hpp"
@@ -125,6 +126,18 @@ struct ContactOffset {
 // equilibrium_element.hpp), from its start on. Columns: their x and y.
 using EdgeMoments =
     Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, highest_stress_degree + 1>;
+
+// Of u(x) on the edge from a to b: along its curve, else of the quadratic through u at both ends
+// and the middle.
+template <typename Displacement>
+EdgeMoments moments_along(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                          const SideCurve& curve, int degree, const Displacement& u) {
+  if (!curve.is_straight()) return CurvedSide<double>(curve, degree).moments_of(u);
+  const auto along = edge_coefficients<Eigen::Vector2d>(u(a), u((a + b) / 2), u(b));
+  EdgeMoments moments(2, degree + 1);
+  for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of(degree, j, along);
+  return moments;
+}
 
 struct Problem {
   Mesh mesh;

@@ -1,6 +1,5 @@
 #include "solvers/condensation/edge_unknowns.hpp"
 
-#include "assembly/elements/bernstein.hpp"
 #include "assembly/elements/edge_forces.hpp"
 
 namespace airybench {
@@ -97,14 +96,8 @@ Eigen::MatrixXd thermal_moments(const Problem& problem, int degree) {
     const std::optional<CurvedSides> curves = problem.curves_of(t, degree);
     for (int e = 0; e < 3; ++e) {
       const int edge = problem.edges.of_triangle[t][e], row = rows[edge];
-      const Eigen::Vector2d a = v.col(e), b = v.col((e + 1) % 3);
-      EdgeMoments moments(2, degree + 1);
-      if (curves && !(*curves)[e].is_straight()) {
-        moments = CurvedSide<double>((*curves)[e], degree).moments_of(u);
-      } else {
-        const auto along = edge_coefficients<Eigen::Vector2d>(u(a), u((a + b) / 2), u(b));
-        for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of(degree, j, along);
-      }
+      EdgeMoments moments = moments_along(v.col(e), v.col((e + 1) % 3),
+                                          curves ? (*curves)[e] : SideCurve(), degree, u);
       if (row != no_frame) {
         for (int j = 0; j <= degree; ++j) {
           const EdgeFrame frame = problem.frame_of_moment(row, degree, j);
