@@ -8,17 +8,26 @@
 #include "support/wide.hpp"
 
 namespace airybench {
+namespace {
+
+// What is linear on the triangle, at the nine corners of its thirds.
+template <typename Scalar>
+ElementStressIn<Scalar> at_corners(const TriangleVertices& vertices, const auto& linear) {
+  const Eigen::Matrix<Scalar, 2, 3> v = vertices.cast<Scalar>();
+  const Eigen::Vector3<Scalar> centre = linear((v.col(0) + v.col(1) + v.col(2)) / Scalar(3));
+  ElementStressIn<Scalar> corners;
+  for (int t = 0; t < 3; ++t)
+    corners.template middleCols<3>(3 * t) << linear(v.col(t)), linear(v.col((t + 1) % 3)), centre;
+  return corners;
+}
+
+}  // namespace
 
 template <typename Scalar>
 ElementStressIn<Scalar> particular_element_stress(const Problem& problem, int triangle) {
-  const Eigen::Matrix<Scalar, 2, 3> v = problem.vertices_of(triangle).cast<Scalar>();
-  const Eigen::Vector3<Scalar> centre =
-      problem.particular_stress<Scalar>((v.col(0) + v.col(1) + v.col(2)) / Scalar(3));
-  ElementStressIn<Scalar> stress;
-  for (int t = 0; t < 3; ++t)
-    stress.template middleCols<3>(3 * t) << problem.particular_stress<Scalar>(v.col(t)),
-        problem.particular_stress<Scalar>(v.col((t + 1) % 3)), centre;
-  return stress;
+  return at_corners<Scalar>(problem.vertices_of(triangle), [&](const Eigen::Vector2<Scalar>& x) {
+    return problem.particular_stress<Scalar>(x);
+  });
 }
 
 template <typename Scalar>
@@ -53,19 +62,13 @@ ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
 
 template <typename Scalar>
 ElementStressIn<Scalar> thermal_dual(const Problem& problem, int triangle) {
-  const TriangleVertices v = problem.vertices_of(triangle);
-  const auto at = [&](const Eigen::Vector2d& x) {
-    const ThermalStrain& thermal = problem.thermal_of(triangle);
-    const Scalar e =
-        Scalar(thermal.at_origin) + thermal.slope_per_mm.cast<Scalar>().dot(x.cast<Scalar>());
-    return Eigen::Vector3<Scalar>(e, e, Scalar(0));
+  const ThermalStrain& thermal = problem.thermal_of(triangle);
+  const auto strain = [&](const Eigen::Vector2<Scalar>& x) -> Eigen::Vector3<Scalar> {
+    const Scalar e = Scalar(thermal.at_origin) + thermal.slope_per_mm.cast<Scalar>().dot(x);
+    return {e, e, Scalar(0)};
   };
-  const Eigen::Vector3<Scalar> centre = (at(v.col(0)) + at(v.col(1)) + at(v.col(2))) / Scalar(3);
-  ElementStressIn<Scalar> strain;
-  for (int t = 0; t < 3; ++t)
-    strain.template middleCols<3>(3 * t) << at(v.col(t)), at(v.col((t + 1) % 3)), centre;
-  return stress_dual<Scalar>(strain, problem.area_mm2<Scalar>(triangle),
-                             Eigen::Matrix3d::Identity());
+  return stress_dual<Scalar>(at_corners<Scalar>(problem.vertices_of(triangle), strain),
+                             problem.area_mm2<Scalar>(triangle), Eigen::Matrix3d::Identity());
 }
 
 StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorXd& phi) {
