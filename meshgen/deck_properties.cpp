@@ -287,22 +287,26 @@ class PropertyReader {
               fmt::format("{}: contact is hard here, not {}", block.line.place, law));
       }
     }
+    const auto friction_of = [&](const DeckBlock& block) {
+      const auto known = friction.find(block.value("INTERACTION"));
+      if (known == friction.end())
+        block.line.fail(fmt::format("INTERACTION={}: no such *SURFACE INTERACTION",
+                                    block.value("INTERACTION")));
+      if (block.has("ADJUST"))
+        properties_.notes.push_back(fmt::format(
+            "{}: ADJUST is not used: the gap is that of the coordinates", block.line.place));
+      return std::optional(known->second);
+    };
     std::map<std::string, std::string, WithoutCase> place_of;  // faces' pairs
     for (const DeckBlock& block : deck_.file.blocks) {
       const bool is_tied = block.keyword == "TIE";
       if (!is_tied && block.keyword != "CONTACT PAIR") continue;
-      const auto known = friction.find(is_tied ? "" : block.value("INTERACTION"));
-      if (!is_tied && known == friction.end())
-        block.line.fail(fmt::format("INTERACTION={}: no such *SURFACE INTERACTION",
-                                    block.value("INTERACTION")));
-      if (!is_tied && block.has("ADJUST"))
-        properties_.notes.push_back(fmt::format(
-            "{}: ADJUST is not used: the gap is that of the coordinates", block.line.place));
+      const std::optional<double> mu = is_tied ? std::nullopt : friction_of(block);
       for (const DeckLine& line : block.data) {
         const std::vector<std::string> names = line.fields();
         if (names.size() < 2 || names[1].empty() || in_capitals(names[0]) == in_capitals(names[1]))
           line.fail(fmt::format("*{} (allowed: two surfaces)", block.keyword));
-        DeckPair pair{{}, is_tied ? std::nullopt : std::optional(known->second)};
+        DeckPair pair{{}, mu};
         for (std::size_t side = 0; side < 2; ++side) {
           pair.faces[side] = deck_.face(deck_.full_name(names[side], block), line);
           if (!place_of.emplace(pair.faces[side], line.place).second)
