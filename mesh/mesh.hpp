@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -134,6 +135,7 @@ MeshSizes mesh_sizes(const Mesh& mesh);
 // The body's measures. Meshes of one body agree in them, but for what a curved side loses.
 struct MeshExtent {
   double area_mm2 = 0, contact_length_mm = 0, width_mm = 0, height_mm = 0;
+  double diagonal_mm() const { return std::hypot(width_mm, height_mm); }
 };
 MeshExtent extent_of(const Mesh& mesh);
 

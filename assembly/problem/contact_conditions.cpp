@@ -6,6 +6,7 @@
 
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/problem/contact_pairs.hpp"
+#include "assembly/problem/face_curve.hpp"
 #include "mesh/transform_error.hpp"
 
 namespace airybench {
@@ -99,8 +100,7 @@ ReachableContact with_reachable_contact(MatchedFaces faces, const Scene& scene) 
   constexpr double farthest = 100;
   Mesh& mesh = faces.mesh;
   std::vector<std::vector<GapPiece>> pieces_of_row(mesh.boundary.size());
-  const MeshExtent extent = extent_of(mesh);
-  const double diameter = std::hypot(extent.width_mm, extent.height_mm);
+  const double diameter = extent_of(mesh).diagonal_mm();
   std::vector<int> free;
   std::map<std::string, int> met;  // edges that reach their wall, per group
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {

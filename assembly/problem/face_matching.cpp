@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 #include <unsupported/Eigen/BVH>
 
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/problem/contact_pairs.hpp"
-#include "mesh/circle.hpp"
+#include "assembly/problem/face_curve.hpp"
 #include "mesh/transform_error.hpp"
 
 namespace airybench {
@@ -17,6 +20,37 @@ namespace {
 
 using Point = Eigen::Vector2d;
 constexpr double min_facing = 0.5;  // of −n·m: faces up to 60° from parallel
+
+// The edges of one or more groups, with a normal at every vertex.
+struct MatchingFace {
+  std::vector<int> rows;                     // of Mesh::boundary
+  std::map<int, std::optional<Wall>> curve;  // per row
+  std::map<int, Eigen::Vector2d> normal;     // per vertex: the mean of two edges', or the curve's
+  std::set<int> fixed;                       // vertices that must stay: ends and corners
+};
+
+MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, const Scene& scene) {
+  constexpr double min_cosine = 0.94;  // 20°
+  MatchingFace face;
+  std::map<int, std::vector<Point>> at;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const BoundaryEdge& edge = mesh.boundary[row];
+    const std::string label = boundary_label(mesh, edge);
+    if (std::ranges::count(labels, label) == 0) continue;
+    face.rows.push_back(row);
+    face.curve[row] = curve_of(mesh, row, scene);
+    const Point &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
+    const Point n = edge_frame(a, b).normal;
+    for (const int v : edge.vertices)
+      at[v].push_back(face.curve[row] ? normal_of_curve(*face.curve[row], mesh.vertices[v], n) : n);
+  }
+  for (const auto& [v, normals] : at) {
+    face.normal[v] = (normals.front() + normals.back()).normalized();
+    if (normals.size() < 2 || normals.front().dot(normals.back()) < min_cosine)
+      face.fixed.insert(v);
+  }
+  return face;
+}
 
 // Where a vertex meets the other face.
 struct Hit {
@@ -328,76 +362,10 @@ class Matcher {
 
 }  // namespace
 
-Point normal_of_curve(const Wall& curve, const Point& x, const Point& m) {
-  const Point n = direction_towards(curve, x).value_or(m);
-  return n.dot(m) < 0 ? Point(-n) : n;
-}
-
-std::optional<Wall> curve_of(const Mesh& mesh, int boundary_row, const Scene& scene) {
-  constexpr double straight = 1e9;  // radius over chord
-  const BoundaryEdge& edge = mesh.boundary[boundary_row];
-  const std::string label = boundary_label(mesh, edge);
-  if (const auto own = scene.boundary.find(label);
-      own != scene.boundary.end() && own->second.contact.face)
-    return own->second.contact.face;
-  if (scene.face && !is_paired(scene, label)) return scene.face;
-  if (edge.curve.is_straight()) return {};
-  const Point &a = edge.curve.points_mm.front(), &b = edge.curve.points_mm.back(),
-              middle = edge.curve.at(0.5);
-  const auto circle = circle_through(a, middle, b);
-  if (!circle || circle->radius_mm > straight * (b - a).norm())
-    return FlatWall{a, Point(a.y() - b.y(), b.x() - a.x()).normalized()};
-  const bool is_convex = cross_area(a, b, middle) < 0;  // the body is on the left
-  return CircularWall{circle->centre_mm, circle->radius_mm,
-                      is_convex ? CircularWall::Bodies::inside : CircularWall::Bodies::outside};
-}
-
-MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, const Scene& scene) {
-  constexpr double min_cosine = 0.94;  // 20°
-  MatchingFace face;
-  std::map<int, std::vector<Point>> at;
-  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
-    const BoundaryEdge& edge = mesh.boundary[row];
-    const std::string label = boundary_label(mesh, edge);
-    if (std::ranges::count(labels, label) == 0) continue;
-    face.rows.push_back(row);
-    face.curve[row] = curve_of(mesh, row, scene);
-    const Point &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
-    const Point n = edge_frame(a, b).normal;
-    for (const int v : edge.vertices)
-      at[v].push_back(face.curve[row] ? normal_of_curve(*face.curve[row], mesh.vertices[v], n) : n);
-  }
-  for (const auto& [v, normals] : at) {
-    face.normal[v] = (normals.front() + normals.back()).normalized();
-    if (normals.size() < 2 || normals.front().dot(normals.back()) < min_cosine)
-      face.fixed.insert(v);
-  }
-  return face;
-}
-
-void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
-                double allowed_mm) {
-  const auto [start, end] = mesh.boundary[row].vertices;
-  const Point &a = mesh.vertices[start], &b = mesh.vertices[end];
-  const Point normal = edge_frame(a, b).normal;
-  for (const Point& point : {a, Point((a + b) / 2), b}) {
-    const std::optional<double> t = distance_to_either_side(face, point, normal);
-    if (t && std::abs(*t) <= allowed_mm) continue;
-    refuse(label + ": face", t ? "is " + shown(std::abs(*t)) + " mm" : std::string("is not seen"),
-           "from the edge at " + shown(point) + " (allowed: up to " + shown(allowed_mm) +
-               " mm, 5 % of the body's size)");
-  }
-}
-
-double diagonal_mm(const Mesh& mesh) {
-  const MeshExtent extent = extent_of(mesh);
-  return std::hypot(extent.width_mm, extent.height_mm);
-}
-
 FaceMatching match_faces(Mesh& mesh, const ContactPair& pair, const Scene& scene) {
   Matcher matcher(mesh,
                   {face_of(mesh, pair.between[0], scene), face_of(mesh, pair.between[1], scene)},
-                  diagonal_mm(mesh));
+                  extent_of(mesh).diagonal_mm());
   FaceMatching matching = matcher.match();
   if (matcher.met_twice())
     refuse(place_of(pair), "meet twice",

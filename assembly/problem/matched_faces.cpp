@@ -6,6 +6,7 @@
 #include <set>
 
 #include "assembly/problem/contact_pairs.hpp"
+#include "assembly/problem/face_curve.hpp"
 #include "mesh/transform_error.hpp"
 #include "support/lists.hpp"
 
@@ -114,7 +115,7 @@ class PairedEdges {
 void close_crack(Mesh& mesh, const FaceMatching& matching) {
   constexpr double rounding = 1e-12;  // of the mesh's size
   const MeshPieces pieces = pieces_of(mesh);
-  const double together_mm = rounding * diagonal_mm(mesh);
+  const double together_mm = rounding * extent_of(mesh).diagonal_mm();
   for (const auto& [v, twin] : matching.twin)
     if (pieces.of_vertex[v] == pieces.of_vertex[twin] &&
         (mesh.vertices[v] - mesh.vertices[twin]).norm() <= together_mm)
@@ -132,7 +133,7 @@ MatchedFaces with_matched_faces(Mesh mesh, const Scene& scene) {
   std::erase_if(pairs, &ContactPair::is_bonded);
   if (pairs.empty()) return result;
   check_labels(changed, pairs);
-  const double size_mm = diagonal_mm(changed);
+  const double size_mm = extent_of(changed).diagonal_mm();
   for (const ContactPair& pair : pairs) {
     const FaceMatching matching = match_faces(changed, pair, scene);
     close_crack(changed, matching);
