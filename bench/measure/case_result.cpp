@@ -135,6 +135,10 @@ Record to_record(const Case& asked, const Limits& limits, const CaseResult& resu
   return record;
 }
 
+bool is_measured(const Case& asked, const CaseResult& result) {
+  return is_measured(result.verdict.status, name_of(asked.points), result.verification.has_value());
+}
+
 Verdict ended_otherwise(const TimedRun& run, const char* which) {
   return {run.end.status, fmt::format("in a {} run: {}", which, run.end.reason)};
 }

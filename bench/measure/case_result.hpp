@@ -87,6 +87,8 @@ struct CaseResult {
 
 // The only writer of a record of what came of a case.
 Record to_record(const Case& asked, const Limits& limits, const CaseResult& result);
+// As of its record.
+bool is_measured(const Case& asked, const CaseResult& result);
 
 // Adds a timed run's sample to the record. If it did not end as the detail run, its end becomes the
 // record's, and samples and memory figures go.

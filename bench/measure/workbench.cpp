@@ -101,7 +101,7 @@ Workbench::Examination Workbench::examine(const Case& asked, const std::filesyst
   // The detail run of a path judges between its steps, which takes memory.
   const bool is_path = problem_ && count_of_steps(*problem_) > 1;
   if (!is_path && (run.time_s > limits_.long_case_s || asked.settings.timed_once) &&
-      is_measured(to_record(asked, limits_, result))) {
+      is_measured(asked, result)) {
     result.only_run = only_run;
     result.memory = run.memory;
   } else if (done) {  // timeout in the solve itself: a lower bound

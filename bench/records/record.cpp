@@ -168,10 +168,12 @@ bool is_verified(const Record& record) {
   return record.strain_energy_Nmm || record.equilibrium_residual;
 }
 
+bool is_measured(Status status, std::string_view points, bool is_verified) {
+  return has_answer(status) ||
+         (points == "accuracy" && status == Status::not_converged && is_verified);
+}
 bool is_measured(const Record& record) {
-  return has_answer(record.status) ||
-         (record.points == "accuracy" && record.status == Status::not_converged &&
-          is_verified(record));
+  return is_measured(record.status, record.points, is_verified(record));
 }
 
 }  // namespace airybench

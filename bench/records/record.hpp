@@ -151,7 +151,8 @@ std::string context_word(const Record& record, const std::string& key);  // "" i
 bool is_verified(const Record& record);
 
 // Whether time and memory count: there is an answer, or a study of accuracy stopped the method
-// early.
+// early. points: of all_points.
+bool is_measured(Status status, std::string_view points, bool is_verified);
 bool is_measured(const Record& record);
 
 }  // namespace airybench

@@ -68,8 +68,7 @@ void serve_case(Channel& channel, const Case& c, const Limits& limits,
     } catch (const FileError& error) {  // from a field or a log
       result = {.verdict = {Status::machine_fault, error.what()}};
     }
-    if (is_measured(to_record(c, limits, result)) && !result.only_run)
-      bench.measure_memory(c.method, choice, result);
+    if (is_measured(c, result) && !result.only_run) bench.measure_memory(c.method, choice, result);
     result.runs_s = board.seconds_in_runs();
     channel.send(json_text(to_json(to_record(c, limits, result))));
   }

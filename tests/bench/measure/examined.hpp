@@ -29,7 +29,7 @@ class CaseBench : public Workbench {
   Record measure(const Method& method) {
     const Case c = asked(method);
     auto [result, choice] = Workbench::examine(c, {});
-    if (is_measured(to_record(c, limits_, result))) measure_memory(method, choice, result);
+    if (is_measured(c, result)) measure_memory(method, choice, result);
     Record record = to_record(c, limits_, result);
     if (is_measured(record)) add_run(measure_time(method, choice), record);
     return record;
