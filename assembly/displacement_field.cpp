@@ -169,7 +169,7 @@ Eigen::Matrix3Xd thermal_stress(const Problem& problem, int triangle, int k) {
   for (int c = 0; c <= k; ++c)
     for (int b = 0; b <= k - c; ++b)
       stress.col(ring_place(k, b, c)) =
-          problem.thermal_of(triangle).at(v * Eigen::Vector3d(k - b - c, b, c) / k) * of_one;
+          problem.thermal_strain(triangle).at(v * Eigen::Vector3d(k - b - c, b, c) / k) * of_one;
   return stress;
 }
 

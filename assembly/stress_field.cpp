@@ -62,7 +62,7 @@ ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
 
 template <typename Scalar>
 ElementStressIn<Scalar> thermal_dual(const Problem& problem, int triangle) {
-  const ThermalStrain& thermal = problem.thermal_of(triangle);
+  const ThermalStrain& thermal = problem.thermal_strain(triangle);
   const auto strain = [&](const Eigen::Vector2<Scalar>& x) -> Eigen::Vector3<Scalar> {
     const Scalar e = Scalar(thermal.at_origin) + thermal.slope_per_mm.cast<Scalar>().dot(x);
     return {e, e, Scalar(0)};

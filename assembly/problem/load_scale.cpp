@@ -40,7 +40,7 @@ LoadScale load_scale(const Problem& problem) {
   if (!loads.thermal.empty())
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
       for (const int v : mesh.triangles[t])
-        strain = std::max(strain, std::abs(problem.thermal_of(t).at(mesh.vertices[v])));
+        strain = std::max(strain, std::abs(problem.thermal_strain(t).at(mesh.vertices[v])));
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     const double c = problem.compliance_of(t)(0, 0);
     energy += problem.area_mm2(t) * (strain * strain / c + c * stress * stress);

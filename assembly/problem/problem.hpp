@@ -188,11 +188,11 @@ struct Problem {
   }
   EdgeSigns edge_signs(int triangle) const;  // see hct.hpp
 
-  const ThermalStrain& thermal_of(int triangle) const {  // where there is any
+  const ThermalStrain& thermal_strain(int triangle) const {  // where there is any
     return loads.thermal[static_cast<std::size_t>(mesh.triangle_body[triangle])];
   }
   bool is_warm(int triangle) const {
-    return !loads.thermal.empty() && !thermal_of(triangle).is_zero();
+    return !loads.thermal.empty() && !thermal_strain(triangle).is_zero();
   }
 
   // Per side of a triangle points of the curve that stresses or displacements of a degree follow;

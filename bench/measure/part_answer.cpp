@@ -330,7 +330,7 @@ double stress_zz(const Problem& problem, int triangle, const Eigen::Vector2d& x,
   if (!poisson.empty())
     zz += poisson[problem.mesh.triangle_body[triangle]] * stress.head<2>().sum();
   if (problem.is_warm(triangle))
-    zz -= problem.thermal_of(triangle).modulus_zz_MPa * problem.thermal_of(triangle).at(x);
+    zz -= problem.thermal_strain(triangle).modulus_zz_MPa * problem.thermal_strain(triangle).at(x);
   return zz;
 }
 double von_mises(const Problem& problem, int triangle, const Eigen::Vector2d& x,

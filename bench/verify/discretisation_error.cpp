@@ -65,7 +65,7 @@ struct ContactTerms {
 
 // u_t: of the edge of this row, less that of earlier load steps.
 template <int p>
-Sliding sliding_of(const Problem& problem, int row, std::array<double, p + 1> u_t) {
+Sliding edge_sliding(const Problem& problem, int row, std::array<double, p + 1> u_t) {
   const double length_mm = problem.frame_at(row, 0, 1).length_mm,
                turn =
                    (problem.frame_at(row, 1, 1).normal - problem.frame_at(row, 0, 1).normal).norm();
@@ -110,7 +110,7 @@ ContactTerms contact_terms(const ContactSystem& system, const CurvedTraces& trac
   for (int i = 0; i <= p; ++i) r[i] += lowered[i];
   terms.highest_gap = *std::max_element(r.begin(), r.end());
   terms.highest_force = *std::max_element(normal.begin(), normal.end());
-  if (*std::ranges::min_element(normal) < 0) terms.sliding = sliding_of<p>(problem, row, u_t);
+  if (*std::ranges::min_element(normal) < 0) terms.sliding = edge_sliding<p>(problem, row, u_t);
   return terms;
 }
 

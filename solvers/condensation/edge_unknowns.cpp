@@ -91,7 +91,7 @@ Eigen::MatrixXd thermal_moments(const Problem& problem, int degree) {
     const TriangleVertices v = problem.vertices_of(t);
     const Eigen::Vector2d centre = v.rowwise().mean();
     const auto u = [&](const Eigen::Vector2d& x) {
-      return problem.thermal_of(t).displacement(x, centre);
+      return problem.thermal_strain(t).displacement(x, centre);
     };
     const std::optional<CurvedSides> curves = problem.curves_of(t, degree);
     for (int e = 0; e < 3; ++e) {
