@@ -64,6 +64,22 @@ inline Problem quarter(int around, int across, double outer_mm, const ExactStres
                       std::move(loads), 0);
 }
 
+// The largest allowed ratio of estimated error to true error: near incompressibility what makes
+// displacements admissible costs more than their error.
+inline double most_overestimated(double poisson, Rim rim) {
+  if (poisson < 0.4) return 2.5;
+  return rim == Rim::loaded ? 3 : rim == Rim::held ? 6 : 13;
+}
+
+// expect(exact stress, outer_mm, across, Poisson's ratio, rim), as of quarter().
+inline void for_pressed_rings(const auto& expect) {
+  for (const auto& [rim, name] :
+       {std::pair(Rim::loaded, "loaded"), {Rim::held, "held"}, {Rim::rolling, "rolling"}}) {
+    SCOPED_TRACE(::testing::Message() << "rim " << name);
+    for (const double poisson : {0.3, 0.4999}) expect(pressed, 2, 2, poisson, rim);
+  }
+}
+
 // A ring of 1 to 2 mm in a socket that is `too_small` smaller: the pressure is the same everywhere.
 struct RingInASocket {
   static constexpr double young = 1000, poisson = 0.3, too_small = 0.002;

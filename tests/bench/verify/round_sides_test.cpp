@@ -62,26 +62,12 @@ void expect_order(const ExactStress& exact, double outer_mm, int across, double 
     EXPECT_GT(of_hole, degree + 0.5);
     for (const Judged& own : {coarse, fine}) {
       EXPECT_GT(own.total, own.truth);
-      const double most = poisson < 0.4 ? 2.5 : rim == Rim::loaded ? 3 : rim == Rim::held ? 6 : 13;
-      EXPECT_LT(own.total, most * own.truth);
+      EXPECT_LT(own.total, testing::most_overestimated(poisson, rim) * own.truth);
     }
   }
 }
 
-TEST(RoundSides, ARingUnderPressureIsOfFullOrder) {
-  expect_order(pressed, 2, 2, 0.3);
-  expect_order(pressed, 2, 2, 0.4999);
-}
-
-TEST(RoundSides, AHeldRimIsOfFullOrder) {
-  expect_order(pressed, 2, 2, 0.3, Rim::held);
-  expect_order(pressed, 2, 2, 0.4999, Rim::held);
-}
-
-TEST(RoundSides, ARollingRimIsOfFullOrder) {
-  expect_order(pressed, 2, 2, 0.3, Rim::rolling);
-  expect_order(pressed, 2, 2, 0.4999, Rim::rolling);
-}
+TEST(RoundSides, RingsUnderPressureAreOfFullOrder) { testing::for_pressed_rings(expect_order); }
 
 // Rollers on one circle would let a ring turn: their chords do not.
 TEST(RoundSides, RollersThatAloneWouldLetTheBodyTurnAreChords) {
