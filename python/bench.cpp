@@ -47,38 +47,43 @@ Eigen::VectorXd of_size(Eigen::VectorXd answer, Eigen::Index size, const char* w
 }
 
 Method method_of_callable(const py::function& function, const std::string& name,
-                          const std::string& reads, std::string summary) {
+                          const std::string& reads, const std::string& elements,
+                          const std::string& summary) {
   if (!is_plain_program_name(name))
     throw UsageError(
         fmt::format("method: name '{}' (allowed: letters, digits, '-', '_', '.')", name));
   if (std::ranges::count(methods(), name, &Method::name) > 0)
     throw UsageError(fmt::format("method: name '{}': one of bench's own has it", name));
+  if (elements != "P2" && (elements != "other" || reads != "body"))
+    throw UsageError(
+        fmt::format("method: elements: '{}' (allowed: P2, and with reads='body' other)", elements));
   const Callable call(function);
   Method method;
   if (reads == "condensed") {
-    method = airybench::method_of(
-        ContactLaw(kept([call](const contact::Problem& problem) {
+    method = contact_law_method(
+        kept([call](const contact::Problem& problem) {
           // A copy: Python may keep it.
           auto r = call.operator()<Eigen::VectorXd>(std::make_shared<contact::Problem>(problem));
           return Eigen::VectorXd(-of_size(std::move(r), problem.points.size(), "r"));
-        })),
+        }),
         name, summary);
   } else if (reads == "airy") {
-    method = airybench::method_of(
-        AiryUnknowns(kept([call](const AirySystem& system) {
-          auto x = call.operator()<Eigen::VectorXd>(
-              arrays_of(system.problem->mesh.name + ": Airy system", airy_arrays(system)));
-          return of_size(std::move(x), system.n(), "x");
-        })),
-        name, summary);
+    method = airy_method(kept([call](const AirySystem& system) {
+                           auto x = call.operator()<Eigen::VectorXd>(arrays_of(
+                               system.problem->mesh.name + ": Airy system", airy_arrays(system)));
+                           return of_size(std::move(x), system.n(), "x");
+                         }),
+                         name, summary);
   } else if (reads == "body") {
-    method = airybench::method_of(QuadraticDisplacement(kept([call](const Problem& problem) {
-                                    auto u = call.operator()<Eigen::MatrixX2d>(
-                                        body_arrays_of(problem, problem.mesh.name + ": body"));
-                                    of_size(u.col(0), displacement_nodes(problem), "rows of u");
-                                    return u;
-                                  })),
-                                  name, summary);
+    method = displacement_method(
+        kept([call](const Problem& problem) {
+          auto u = call.operator()<Eigen::MatrixX2d>(
+              body_arrays_of(problem, problem.mesh.name + ": body"));
+          of_size(u.col(0), displacement_nodes(problem), "rows of u");
+          return u;
+        }),
+        {.allowed_penetration = usual_penetration, .other_elements = elements == "other"}, name,
+        summary);
   } else {
     throw UsageError(fmt::format("method: reads: '{}' (allowed: condensed, airy, body)", reads));
   }
@@ -146,7 +151,7 @@ void bind_bench(py::module_& module) {
       });
   module.def("methods", &methods, "All named methods, as bench list prints them.");
   module.def("_method", &method_of_callable, py::arg("function"), py::arg("name"), py::arg("reads"),
-             py::arg("summary"));
+             py::arg("elements"), py::arg("summary"));
   module.def("_bench", &run_bench, py::arg("arguments"), py::arg("methods"));
   module.def("_better_blas_core", &better_blas_core);
   module.def("_data_folder", [](const std::string& name) { return data_folder(name).string(); });

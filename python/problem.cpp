@@ -297,7 +297,7 @@ void bind_problem(py::module_& module) {
                                                forces->size(), problem.points.size()));
                 return Eigen::VectorXd(-*forces);
               };
-              const Method given = airybench::method_of(kept(law), "GIVEN", "", degree);
+              const Method given = contact_law_method(kept(law), "GIVEN", "", degree);
               record = judged(self, solved(self, given, {}, 900), target_error);
             }
             interruptible.check();

@@ -77,7 +77,8 @@ void take_displacement(const Problem& problem, const Eigen::MatrixX2d& u,
   solution.unknowns = Displacements{std::move(w), tolerances};
 }
 
-Method method_of(ContactLaw law, const std::string& name, const std::string& summary, int degree) {
+Method contact_law_method(ContactLaw law, const std::string& name, const std::string& summary,
+                          int degree) {
   Method method = named(select_methods("HYBRID", {}, degree).front(), name, summary);
   method.solve = with_law<ContactSystem>(std::move(method.solve), law);
   method.solve_contact =
@@ -85,7 +86,7 @@ Method method_of(ContactLaw law, const std::string& name, const std::string& sum
   return method;
 }
 
-Method method_of(AiryUnknowns solve, const std::string& name, const std::string& summary) {
+Method airy_method(AiryUnknowns solve, const std::string& name, const std::string& summary) {
   Method method = named({.stages = {Stage::recover}}, name, summary);
   method.solve =
       on_airy_system([solve = std::move(solve)](const AirySystem& system, const RunControl&) {
@@ -101,15 +102,15 @@ Method method_of(AiryUnknowns solve, const std::string& name, const std::string&
   return method;
 }
 
-Method method_of(QuadraticDisplacement solve, const std::string& name, const std::string& summary) {
+Method displacement_method(QuadraticDisplacement solve, const ProgramTolerances& tolerances,
+                           const std::string& name, const std::string& summary) {
   Method method = named(
       {.unknowns = Unknowns::displacements, .takes_load_steps = false, .stages = {Stage::recover}},
       name, summary);
-  method.solve = [solve = std::move(solve)](const ContactSystem& system, const RunControl&) {
-    constexpr double allowed_penetration = 1e-3;
+  method.solve = [solve = std::move(solve), tolerances](const ContactSystem& system,
+                                                        const RunControl&) {
     Solution solution = claimed_ok();
-    take_displacement(*system.problem, solve(*system.problem),
-                      {.allowed_penetration = allowed_penetration}, solution);
+    take_displacement(*system.problem, solve(*system.problem), tolerances, solution);
     return solution;
   };
   return method;

@@ -19,9 +19,10 @@ using ContactLaw = std::function<Eigen::VectorXd(const contact::Problem&)>;     
 using AiryUnknowns = std::function<Eigen::VectorXd(const AirySystem&)>;         // x
 using QuadraticDisplacement = std::function<Eigen::MatrixX2d(const Problem&)>;  // as above
 // In place of HYBRID's contact law, load step by load step; without a body alone.
-Method method_of(ContactLaw law, const std::string& name, const std::string& summary,
-                 int degree = 1);
-Method method_of(AiryUnknowns solve, const std::string& name, const std::string& summary);
-Method method_of(QuadraticDisplacement solve, const std::string& name, const std::string& summary);
+Method contact_law_method(ContactLaw law, const std::string& name, const std::string& summary,
+                          int degree = 1);
+Method airy_method(AiryUnknowns solve, const std::string& name, const std::string& summary);
+Method displacement_method(QuadraticDisplacement solve, const ProgramTolerances& tolerances,
+                           const std::string& name, const std::string& summary);
 
 }  // namespace airybench

@@ -187,6 +187,7 @@ Declaration read_declaration(const std::filesystem::path& file) {
                {"print_precision", read_print_precision},
                {"allowed_penetration", read_allowed_penetration},
                {"weak_contact", flag_of_displacement(declaration.tolerances.weak_contact)},
+               {"other_elements", flag_of_displacement(declaration.tolerances.other_elements)},
                {"joins_bodies", flag_of_displacement(declaration.joins_bodies)},
                {"load_steps", flag_of_displacement(declaration.load_steps)}});
   if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);

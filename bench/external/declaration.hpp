@@ -27,6 +27,9 @@
 //                    displacement; 1e-3
 //   weak_contact     optional, of displacement: true of a contact law (Nitsche's) that also loads
 //                    inner nodes next to Γ_C; contact forces are then asked for their sum
+//   other_elements   optional, of displacement: true of a program whose elements are not quadratic
+//                    (linear, cubic, other meshes): it returns its displacements at vertices and
+//                    middles of edges, and is judged by their total error alone
 //   joins_bodies     optional, of displacement: true if it takes bodies that press on each other
 //                    (contact_opposite)
 //   load_steps       optional, of displacement: true if it measures slip from slid_mm
@@ -50,6 +53,8 @@ inline constexpr std::array<std::string_view, 5> all = {input, output, threads, 
                                                         time_limit_s};
 }  // namespace placeholder
 
+inline constexpr double usual_penetration = 1e-3;
+
 struct Declaration {
   enum class Returns { airy_function, displacement, edge_displacements, contact_forces };
 
@@ -62,7 +67,7 @@ struct Declaration {
   std::vector<std::string> command;
   std::string version = "unknown version";  // printed by its version command
   double first_tolerance = 0;
-  ProgramTolerances tolerances = {.allowed_penetration = 1e-3};
+  ProgramTolerances tolerances = {.allowed_penetration = usual_penetration};
   bool joins_bodies = false, load_steps = false;
 };
 

@@ -143,6 +143,9 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
   const std::vector<StepResult>* const halves = half_steps(method.degree);
   if (halves != nullptr) result.steps_in_halves = *halves;
   if (is_ok()) verdict = judge_total_error(method, std::move(verdict), result);
+  if (is_ok() && is_by_program && displacements->by_program->other_elements)
+    verdict.add(
+        "judged by its total error alone: its elements are not the quadratic ones of the mesh");
   if (is_ok()) verdict.add(remark_on_polygons(method, result.polygons, result.of_mesh.total));
   if (is_ok() && halves != nullptr && !method.in_displacements())
     for (const std::string& remark : remarks_on_half_steps(step_results(result.steps), *halves))

@@ -36,17 +36,19 @@ if core := _airybench._better_blas_core():
                   "before Python starts")
 
 
-def method(name: str, *, reads: str = "condensed", summary: str = "") -> Callable[[Callable], Method]:
+def method(name: str, *, reads: str = "condensed", elements: str = "P2", summary: str = "") -> Callable[[Callable], Method]:
     """Makes a callable a method, for Problem.solve() and bench().
 
     reads: what it gets and returns.
     condensed: a contact.Problem; returns r, N, of its rows. The rest is HYBRID's.
     airy: the arrays of Problem.airy_system(); returns x with S x + C_F' l + C_C' l' = q.
     body: the arrays of Problem.body(); returns u, mm: a row x, y per vertex, then per edge, at its
-    middle.
+    middle. Those of other elements than quadratic ones (elements="other") are judged by their total
+    error alone.
     """
     def decorate(function: Callable) -> Method:
-        return _airybench._method(function, name, reads, summary or (function.__doc__ or name).split("\n")[0])
+        return _airybench._method(function, name, reads, elements,
+                                  summary or (function.__doc__ or name).split("\n")[0])
     return decorate
 
 

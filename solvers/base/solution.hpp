@@ -66,6 +66,9 @@ struct ProgramTolerances {
   double print_precision = 0;      // largest relative rounding of its numbers; 0: of doubles
   double allowed_penetration = 0;  // relative to the largest displacement
   bool weak_contact = false;       // its contact law also loads inner nodes next to Γ_C
+  // Its elements are not quadratic, its forces not those of our nodes: the total error alone
+  // judges.
+  bool other_elements = false;
 };
 // A DisplacementField w (displacement_field.hpp) of one degree more than the stresses, without the
 // problem's rigid motion, mm.

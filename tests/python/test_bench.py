@@ -59,6 +59,27 @@ def linear(body):
     return np.column_stack([np.ones(len(points)), points]) @ plane
 
 
+def linear_elements(body):
+    """Of a body with a body force and held edges, linear triangles; at middles the mean of the ends."""
+    x, count = body.vertices_mm, len(body.vertices_mm)
+    stiffness, load = sparse.lil_matrix((2 * count, 2 * count)), np.zeros(2 * count)
+    for nodes, which in zip(body.triangles, body.triangle_body):
+        d = np.linalg.inv(np.column_stack([np.ones(3), x[nodes]]))[1:]
+        area = abs(np.linalg.det(np.column_stack([np.ones(3), x[nodes]]))) / 2
+        b = np.zeros((3, 6))
+        b[0, ::2], b[1, 1::2], b[2, ::2], b[2, 1::2] = d[0], d[1], d[1], d[0]
+        rows = np.stack([2 * nodes, 2 * nodes + 1], axis=1).ravel()
+        stiffness[np.ix_(rows, rows)] += area * b.T @ np.linalg.inv(
+            body.compliance_per_MPa[which].reshape(3, 3)) @ b
+        load[rows] += np.tile(body.body_force_N_per_mm3, 3) * area / 3
+    held = np.unique(body.boundary[body.boundary_roles == 0])
+    free = np.setdiff1d(np.arange(2 * count), np.concatenate([2 * held, 2 * held + 1]))
+    u = np.zeros(2 * count)
+    u[free] = scipy.sparse.linalg.spsolve(stiffness.tocsc()[np.ix_(free, free)], load[free])
+    u = u.reshape(-1, 2)
+    return np.concatenate([u, u[body.edges].mean(axis=1)])
+
+
 class MethodTest(unittest.TestCase):
     def test_a_contact_law(self) -> None:
         problem = ab.Problem("Mesh1", friction=0.3)
@@ -87,6 +108,17 @@ class MethodTest(unittest.TestCase):
         record = problem.judge(problem.solve(linear))
         self.assertEqual(record["status"], "ok")
         self.assertLess(record["error_total"], 1e-9)
+
+    def test_other_elements_are_judged_by_their_total_error_alone(self) -> None:
+        problem = ab.Problem("Mesh1", {"mesh": {"keep_contact_edges": 0}, "body_force_N_per_mm3": [0, -0.01],
+                                       "displacement_mm": [0, 0]})
+        found = [problem.judge(problem.solve(ab.method("P1", reads="body", elements=elements)(linear_elements)))
+                 for elements in ("P2", "other")]
+        self.assertEqual([record["status"] for record in found], ["inaccurate", "ok"])
+        self.assertIn("total error alone", found[1]["status_reason"])
+        quadratic = problem.judge(problem.solve("P2"))["error_total"]
+        self.assertGreater(found[1]["error_total"], 2 * quadratic)
+        self.assertLess(found[1]["error_total"], 0.5)
 
     def test_what_a_callable_raises_is_raised(self) -> None:
         problem = ab.Problem("Mesh0")
