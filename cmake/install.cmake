@@ -90,7 +90,7 @@ problems. No time is shown without the error that belongs to it.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libeigen3-dev, libsuitesparse-dev, libmumps-seq-dev, libblas-dev, liblapack-dev, libboost-dev, libfmt-dev, libssl-dev")
+    "libeigen3-dev, libsuitesparse-dev, libmumps-seq-dev, libblas-dev, liblapack-dev, libboost-dev, libfmt-dev, libssl-dev, python3-matplotlib, python3-pandas, python3-scipy")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

@@ -1,6 +1,6 @@
 # Installs the project, builds a program outside of it with the installed copy, runs that and the
 # installed command.
-#   cmake -D BUILD=... -D GENERATOR=... -D SOURCE=... -D PLACE=... -P installed_test.cmake
+#   cmake -D BUILD=... -D GENERATOR=... -D SOURCE=... -D PLACE=... -D PYTHON=... -P installed_test.cmake
 file(REMOVE_RECURSE ${PLACE})
 set(prefix ${PLACE}/prefix)
 function(step)
@@ -38,6 +38,14 @@ endif()
 step(${prefix}/bin/airybench --mesh=${meshes} --method=HYBRID --repetitions=1 --out=results)
 if(NOT said MATCHES "Mesh0/default/HYBRID[^\n]* ok")
   message(FATAL_ERROR "airybench: ${said}")
+endif()
+set(module ${prefix}/lib/python3/dist-packages)
+if(EXISTS ${module})
+  step(${CMAKE_COMMAND} -E env PYTHONPATH=${module} ${PYTHON} -c
+       "import airybench as ab; p = ab.Problem('Mesh0'); print(p.judge(p.solve())['status'], ab.__file__)")
+  if(NOT said STREQUAL "ok ${module}/airybench/__init__.py\n")
+    message(FATAL_ERROR "import airybench: ${said}")
+  endif()
 endif()
 # The completion offers the program's own options and commands.
 foreach(word_and_offers IN ITEMS "--mes:--mesh --mesh-size" "ex:explain export export-problem")
