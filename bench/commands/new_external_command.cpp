@@ -9,26 +9,39 @@
 namespace airybench {
 
 int new_external_command(int argc, const char* const* argv) {
-  std::filesystem::path name;
+  NewExternal asked;
   CLI::App app(
-      "Writes NAME.py, a program that solves the contact law and runs as it is, and NAME.json, its "
-      "declaration.",
+      "Writes a program that runs as it is, NAME.py or NAME.cpp, and NAME.json, its declaration. "
+      "It "
+      "solves the contact law, or in C++ a body in displacements.",
       "{bench} new-external");
   app.footer(
       "\nReplace its contact_forces() by your method (docs/your-program.md).\n\n"
       "Example\n  {bench} new-external mine; {bench} check mine.json\n");
-  app.add_option("NAME", name, "of the program; a folder may stand before it")->required();
+  app.add_option("NAME", asked.stem, "of the program; a folder may stand before it")->required();
+  app.add_option("--language", asked.language, "python, c++")
+      ->check(CLI::IsMember({"python", "c++"}))
+      ->capture_default_str();
+  app.add_option("--reads", asked.reads, "condensed: the contact law; body: mesh and loads")
+      ->check(CLI::IsMember({"condensed", "body"}))
+      ->capture_default_str();
   parse_command_line(app, argc, argv);
-  const auto files = write_new_external(name);
+  const auto files = write_new_external(asked);
   const std::string declaration = shell_word(files.back().string());
   const std::string bench = called_as("bench");
+  fmt::print("{} and {} written: a program that is right as it is.\n", files.front().string(),
+             files.back().string());
+  if (asked.language == "c++")
+    fmt::print("  g++ -O2 -std=c++17 -I/usr/include/eigen3 -o {} {}    (Debian: libeigen3-dev)\n",
+               shell_word(asked.stem.string()), shell_word(files.front().string()));
   fmt::print(
-      "{} and {} written: a program that is right as it is. Change its contact_forces(), then:\n"
+      "Change {}, then:\n"
       "  {} check {}    (small cases that each find one mistake)\n"
       "  {} --study=check --method='HYBRID,EXTERNAL:*' --external={}    (its time, next to ours)\n"
       "Do not test with the default scene of Mesh0 to Mesh7: G is zero but for rounding there, so\n"
       "that a wrong sign of it passes.\n",
-      files.front().string(), files.back().string(), bench, declaration, bench, declaration);
+      asked.reads == "body" ? "its solve()" : "its contact_forces()", bench, declaration, bench,
+      declaration);
   return all_ok;
 }
 

@@ -115,6 +115,20 @@ class Check(unittest.TestCase):
                     self.assertRegex(line, f"breakdown +its answer: {said}")
                 self.assertRegex(out, f"all its answers look like: no answer: its answer: {said}")
 
+    def test_the_programs_in_c_plus_plus_are_right(self) -> None:
+        for reads in ("condensed", "body"):
+            with self.subTest(reads):
+                name = f"my-{reads}"
+                made = self.bench("new-external", name, "--language=c++", f"--reads={reads}")
+                self.assertEqual(made.returncode, 0, made.stderr)
+                line = next(line for line in made.stdout.splitlines() if "g++" in line).partition("    (")[0]
+                built = subprocess.run(shlex.split(line) + ["-Wall", "-Wextra", "-Werror"], capture_output=True,
+                                       text=True, check=False, cwd=self.folder)
+                self.assertEqual(built.returncode, 0, built.stderr)
+                ran = self.bench("check", f"{name}.json")
+                self.assertIn(f"EXTERNAL:{name}: 10 of 10 cases passed", ran.stdout)
+        self.assertEqual(self.bench("new-external", "other", "--reads=body").returncode, 2)
+
     def test_a_mistake_of_friction_that_is_none_of_the_known_is_said_to_be_one(self) -> None:
         _, lines, out = self.check("unlike_any")
         self.assertRegex(lines["08_no_friction"], r" ok +-$")
