@@ -2,10 +2,6 @@
 
 namespace airybench {
 
-template struct CurvePoint<double>;
-template struct CurvePoint<Wide>;
-template class CurvedSide<double>;
-template class CurvedSide<Wide>;
 template class CurvedElement<double>;
 template class CurvedElement<Wide>;
 

@@ -1,0 +1,10 @@
+#include "assembly/elements/curved_element_templates.hpp"
+
+namespace airybench {
+
+template struct CurvePoint<double>;
+template struct CurvePoint<Wide>;
+template class CurvedSide<double>;
+template class CurvedSide<Wide>;
+
+}  // namespace airybench
