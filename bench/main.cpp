@@ -45,6 +45,7 @@ const std::map<std::string_view, Command> commands = {
     {"replay", airybench::replay_command},
     {"solve", airybench::solve_command},
     {"track", airybench::track_command},
+    {"validate", airybench::validate_command},
 };
 
 void refuse_misspelt_command(const std::string& word) {

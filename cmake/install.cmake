@@ -33,7 +33,7 @@ install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-co
         RENAME airybench)
 install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME airybench-meshgen)
-install(DIRECTORY meshgen/meshes bench/scenes bench/external/templates results docs/bodies DESTINATION ${data}
+install(DIRECTORY meshgen/meshes bench/scenes bench/external/templates validation results docs/bodies DESTINATION ${data}
         PATTERN "figures" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY plots DESTINATION ${data}  # meshgen --show
         FILES_MATCHING PATTERN "*.py" PATTERN "*.json"

@@ -22,6 +22,7 @@ int replay_command(int argc, const char* const* argv);
 int solve_command(int argc, const char* const* argv);
 int run_command(int argc, const char* const* argv);  // `bench` without a command
 int track_command(int argc, const char* const* argv);
+int validate_command(int argc, const char* const* argv);
 
 // The arguments of a nightly run: the user's, and defaults for the options that these lack.
 std::vector<std::string> nightly_arguments(const std::vector<std::string>& own,

@@ -8,20 +8,16 @@
 
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/commands.hpp"
+#include "bench/commands/part_solution.hpp"
 #include "bench/commands/run_parts.hpp"
 #include "bench/measure/environment.hpp"
-#include "bench/plan/scene_file.hpp"
 #include "bench/records/case_name.hpp"
-#include "bench/records/json_value.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/report/part_table.hpp"
-#include "bench/run/adapted_scenes.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
-#include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
 #include "support/called_as.hpp"
-#include "support/file_text.hpp"
 #include "support/shortened.hpp"
 #include "support/this_process.hpp"
 
@@ -46,33 +42,24 @@ Examples
   {bench} solve part.geo load.json --error=1%:pressure --steps=10 --html
 )";
 
-enum class Quantity { energy, force, pressure };
-struct Goal {
-  double error = 0;
-  Quantity of = Quantity::energy;
-};
-
-Goal goal_of(const std::string& text) {
+PartGoal goal_of(const std::string& text) {
   const std::size_t colon = std::min(text.find(':'), text.size());
   const std::string word = colon == text.size() ? "energy" : text.substr(colon + 1);
   const std::optional<AdaptGoal> goal = adapt_goal_of(text.substr(0, colon));
   if (goal && goal->error)
-    for (const auto& [name, quantity] : {std::pair("energy", Quantity::energy),
-                                         {"force", Quantity::force},
-                                         {"pressure", Quantity::pressure}})
+    for (const auto& [name, quantity] : {std::pair("energy", PartQuantity::energy),
+                                         {"force", PartQuantity::force},
+                                         {"pressure", PartQuantity::pressure}})
       if (word == name) return {*goal->error, quantity};
   throw UsageError(
       fmt::format("--error: {} (allowed: above 0% and below 100%, as 1%, 1%:force, 1%:pressure)",
                   shortened(text)));
 }
 
-Options parse_solve(int argc, const char* const* argv, Goal& goal, bool& html) {
-  Options options;
+Options parse_solve(int argc, const char* const* argv, PartGoal& goal, bool& html) {
+  Options options = options_of_part();
   options.output.folder = "results/solve";
-  options.limits.repetitions = 1;
-  options.run.cases.fields = options.run.cases.picture = true;
-  options.run.cases.timed_once = options.run.cases.intervals = true;
-  options.run.adapt.goals_only = options.run.needs_scene = true;
+  options.run.cases.picture = options.run.needs_scene = true;
   std::string error = "1%", degree = "auto", scene;
   CLI::App app("A part's forces, pressure, stress and displacement, and how far they may be off.",
                "{bench} solve");
@@ -94,10 +81,7 @@ Options parse_solve(int argc, const char* const* argv, Goal& goal, bool& html) {
   parse_command_line(app, argc, argv);
   if (!scene.empty()) options.run.scenes = {scene};
   goal = goal_of(error);
-  options.run.adapt.goals = {{.error = goal.error, .unknowns = {}}};
-  constexpr double of_stress = 2;  // times the error in energy
-  if (goal.of == Quantity::energy) options.run.adapt.stress_error = of_stress * goal.error;
-  read_degree(degree, false, options.run);
+  ask_for(goal, degree, options);
   return options;
 }
 
@@ -144,103 +128,16 @@ class KeptNotes : std::streambuf {
   std::string printed_;
 };
 
-struct Solved {
-  Record record;
-  RunResult result;
-  std::string short_of;
-  std::filesystem::path fields;  // without extensions
-  Json part;                     // its answer; null: there is none
-};
-
-// The error that a quantity has now; none: it is not known. of: "contact:sole"; empty: all faces.
-struct Reached {
-  std::optional<double> error;
-  std::string of = {};
-};
-
-// Half the interval's width over the value.
-std::optional<double> half_width(const std::optional<double>& low,
-                                 const std::optional<double>& high,
-                                 const std::optional<double>& value) {
-  if (!low || !high || !value || *value == 0) return {};
-  return (*high - *low) / 2 / std::abs(*value);
-}
-std::optional<double> half_width(const Json& of, const char* interval, double value) {
-  if (!of.contains(interval)) return {};
-  return half_width(of[interval][0].get<double>(), of[interval][1].get<double>(), value);
-}
-
-// The worst of all faces together and of each that carries a share of the load.
-Reached reached(const Solved& solved, Quantity of) {
-  constexpr double min_share = 0.01;
-  const Record& r = solved.record;
-  if (of == Quantity::energy) return {r.error_total};
-  const bool is_force = of == Quantity::force;
-  Reached worst{is_force ? half_width(r.normal_resultant_low_N, r.normal_resultant_high_N,
-                                      r.normal_resultant_N)
-                         : half_width(r.largest_pressure_low_MPa, r.largest_pressure_high_MPa,
-                                      r.largest_pressure_MPa)};
-  if (solved.part.is_null()) return worst;
-  double load_N = 0;
-  for (const Json& face : solved.part["faces"]) load_N += std::abs(face["normal_N"].get<double>());
-  for (const Json& face : solved.part["faces"]) {
-    const double force_N = face["normal_N"];
-    const Json& pressure = face["pressure_MPa"];
-    if (std::abs(force_N) <= min_share * load_N) continue;
-    const Reached own{is_force ? half_width(face, "normal_in_N", force_N)
-                               : half_width(pressure, "in", pressure["value"].get<double>()),
-                      face["name"]};
-    if (!own.error) return own;
-    if (!worst.error || *own.error > *worst.error) worst = own;
-  }
-  return worst;
-}
-
 std::string text_of(const Reached& reached) {
   const std::string of = reached.of.empty() ? "" : " of " + reached.of;
   if (!reached.error) return fmt::format("this quantity{} has no interval", of);
   return fmt::format("{:.3g} %{}", 100 * *reached.error, of);
 }
 
-std::optional<Solved> solved_to(const PosedScene& start, const Options& options) {
-  const AdaptedScenes adapted = adapted_scenes(start, options);
-  if (!adapted.why_not_reached.empty()) std::cerr << "note: " << adapted.why_not_reached << "\n";
-  if (adapted.levels.empty()) return {};
-  const std::vector<Case> plan =
-      plan_cases({adapted.levels.back()}, select_methods(options.run.methods), options.run);
-  RunResult result = run_cases(plan, options.limits, options.output, context_of_run(options));
-  if (result.names.empty()) return {};
-  Record record = result.record(0);
-  const std::filesystem::path fields = options.output.folder / "fields" / name_of(record).file(),
-                              of_part = fields.string() + ".answer.json";
-  std::error_code error;
-  Json part;
-  if (std::filesystem::exists(of_part, error))
-    part = json_of_file(of_part.string(), file_text(of_part));
-  return Solved{std::move(record), std::move(result), adapted.why_not_reached, fields,
-                std::move(part)};
-}
-
-// The energy's error that the quantity's needs is found as the loop goes.
-std::optional<Solved> solved(const PosedScene& start, Options options, const Goal& goal) {
-  constexpr int max_rounds = 5;
-  constexpr double margin = 0.8, smallest_step = 0.1;
-  std::optional<Solved> answer;
-  for (int round = 0; round < max_rounds; ++round) {
-    answer = solved_to(start, options);
-    if (!answer || !answer->short_of.empty()) return answer;
-    const std::optional<double> width = reached(*answer, goal.of).error;
-    if (!width || meets(width, goal.error)) return answer;
-    double& error = *options.run.adapt.goals.front().error;
-    error *= std::max(smallest_step, margin * std::min(goal.error / *width, 1.));
-  }
-  return answer;
-}
-
 }  // namespace
 
 int solve_command(int argc, const char* const* argv) {
-  Goal goal;
+  PartGoal goal;
   bool html = false;
   const Options options = parse_solve(argc, argv, goal, html);
   check_takes_records(options.output.folder);
@@ -249,7 +146,7 @@ int solve_command(int argc, const char* const* argv) {
   const PosedScene start = one_posed_scene(options);
   make_folder(options.output.folder);
   set_threads(options.run.cases.threads);
-  const std::optional<Solved> answer = solved(start, options, goal);
+  const std::optional<SolvedPart> answer = solved_part(start, options, goal);
   if (!answer) return some_case_failed;
   const Record& record = answer->record;
   const std::string assumptions = assumptions_of(*start.body());

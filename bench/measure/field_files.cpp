@@ -11,6 +11,7 @@
 #include "assembly/total_displacement.hpp"
 #include "bench/measure/part_answer.hpp"
 #include "bench/measure/part_picture.hpp"
+#include "bench/measure/point_locator.hpp"
 #include "bench/measure/stress_samples.hpp"
 #include "bench/measure/vtu.hpp"
 #include "bench/verify/along_contact.hpp"
@@ -354,6 +355,8 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
   const PartFiles part = is_part ? part_files(fields, contact) : PartFiles();
   write_if(is_part, ".answer.json", [&] { return json_text(to_json(part.answer)); });
   write_if(is_part, ".faces.csv", [&] { return part.faces_csv; });
+  write_if(!fields.points_mm.empty(), ".points.json",
+           [&] { return json_text(values_at_points(problem, stress, u, fields.points_mm)); });
   write_if(fields.picture, ".von_mises.csv", [&] { return von_mises_csv(fields); });
   write_if(fields.picture, ".outline.csv",
            [&] { return outline_csv(problem, stress.degree(), u); });

@@ -14,6 +14,7 @@
 //                     contact faces as the body is walked; five rows per edge
 //   NAME.answer.json  see part_answer.hpp. Of displacement methods neither is there
 //   NAME.von_mises.csv, NAME.outline.csv  see part_picture.hpp; of `bench solve`
+//   NAME.points.json  at the points asked for: at_mm, stress_MPa (xx, yy, xy), displacement_mm
 //   NAME.error.csv    triangle, error_share: 0 to 1, of the squared constitutive relation error,
 //                     contact terms included; triangles in the order of NAME.stress.csv
 //   NAME.mean.csv     as NAME.stress.csv: mean of the stresses and those of the displacements
@@ -68,7 +69,8 @@ struct SolvedFields {
   const ConstitutiveError* error = nullptr;     // null if unknown
   const ContactIntervals* intervals = nullptr;  // the same
   std::optional<StressField> mean;
-  bool picture = false;  // also the files of part_picture.hpp
+  bool picture = false;                         // also the files of part_picture.hpp
+  std::vector<Eigen::Vector2d> points_mm = {};  // of NAME.points.json
 };
 
 // Without error and mean; w if the solution has its own, and finite.

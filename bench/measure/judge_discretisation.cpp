@@ -236,6 +236,7 @@ void Judge::write_fields_of(const Method& method, const ContactSystem& system,
       bound && !is_other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
   fields.picture = common_.picture;
+  fields.points_mm = common_.points_mm;
   if (!fields.w && known != nullptr && known->u.allFinite()) fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;

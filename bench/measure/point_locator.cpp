@@ -105,4 +105,27 @@ Eigen::Vector3d stress_at(const PointLocator& locator, const StressField& stress
          values;
 }
 
+Json values_at_points(const Problem& problem, const StressField& stress,
+                      const std::optional<DisplacementField>& u,
+                      const std::vector<Eigen::Vector2d>& points_mm) {
+  const PointLocator locator(problem, stress.degree());
+  const auto list = [](const auto& vector) {
+    return Json(std::vector<double>(vector.begin(), vector.end()));
+  };
+  Json points = Json::array();
+  for (const Eigen::Vector2d& x : points_mm) {
+    Json& point = points.emplace_back(Json{{"at_mm", list(x)}});
+    const auto place = locator.place_of(x);
+    point["stress_MPa"] = place ? list(stress_at(locator, stress, x)) : Json();
+    if (!u) continue;
+    point["displacement_mm"] = Json();
+    if (!place) continue;
+    Eigen::Vector3d lambda = Eigen::Vector3d::Constant(place->weights(2) / 3);
+    lambda(place->third) += place->weights(0);
+    lambda((place->third + 1) % 3) += place->weights(1);
+    point["displacement_mm"] = list(displacement_at(problem, *u, place->triangle, lambda));
+  }
+  return points;
+}
+
 }  // namespace airybench

@@ -1,11 +1,13 @@
-// Where a point of a body is, and the stress there.
+// Where a point of a body is, and stress and displacement there.
 #pragma once
 
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
 
+#include "assembly/displacement_field.hpp"
 #include "assembly/stress_field.hpp"
+#include "bench/records/json.hpp"
 
 namespace airybench {
 
@@ -37,5 +39,11 @@ class PointLocator {
 // xx, yy, xy in MPa; NaN outside the body. Where triangles meet, of one of them.
 Eigen::Vector3d stress_at(const PointLocator& locator, const StressField& stress,
                           const Eigen::Vector2d& x);
+
+// A list of at_mm, stress_MPa and, if the displacement u is known, displacement_mm; null where a
+// point is outside.
+Json values_at_points(const Problem& problem, const StressField& stress,
+                      const std::optional<DisplacementField>& u,
+                      const std::vector<Eigen::Vector2d>& points_mm);
 
 }  // namespace airybench

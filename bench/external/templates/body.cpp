@@ -36,11 +36,21 @@ struct Body {
 Body read_body(const std::string& input) {
   const auto real = [&](const char* name) { return read(input + name + ".mtx"); };
   const auto whole = [&](const char* name) { return MatrixXi(real(name).cast<int>()); };
-  Body body{real("vertices_mm"),     real("compliance_per_MPa"), real("u0_mm"),
-            real("traction_MPa"),    real("gap_mm"),             real("contact_normals"),
-            real("friction"),        real("body_force_N_per_mm3"), whole("triangles"),
-            whole("edges"),          whole("boundary"),          whole("boundary_roles"),
-            whole("triangle_body"),  whole("rollers"),           {}};
+  Body body{real("vertices_mm"),
+            real("compliance_per_MPa"),
+            real("u0_mm"),
+            real("traction_MPa"),
+            real("gap_mm"),
+            real("contact_normals"),
+            real("friction"),
+            real("body_force_N_per_mm3"),
+            whole("triangles"),
+            whole("edges"),
+            whole("boundary"),
+            whole("boundary_roles"),
+            whole("triangle_body"),
+            whole("rollers"),
+            {}};
   for (int e = 0; e < body.edges.rows(); ++e)
     body.middle[{body.edges(e, 0), body.edges(e, 1)}] = static_cast<int>(body.vertices.rows()) + e;
   return body;
@@ -69,8 +79,9 @@ SparseMatrix stiffness(const Body& body, VectorXd& load) {
       Eigen::Matrix<double, 3, 12> strain = Eigen::Matrix<double, 3, 12>::Zero();
       for (int n = 0; n < 6; ++n) {
         const int i = n % 3, j = (n + 1) % 3;
-        const Vector2d g = n < 3 ? Vector2d((4 * lambda(i) - 1) * slope.col(i))
-                                 : Vector2d(4 * (lambda(j) * slope.col(i) + lambda(i) * slope.col(j)));
+        const Vector2d g =
+            n < 3 ? Vector2d((4 * lambda(i) - 1) * slope.col(i))
+                  : Vector2d(4 * (lambda(j) * slope.col(i) + lambda(i) * slope.col(j)));
         strain.col(2 * n) << g.x(), 0, g.y();
         strain.col(2 * n + 1) << 0, g.y(), g.x();
       }
@@ -116,7 +127,8 @@ std::vector<Node> boundary_nodes(const Body& body) {
       const Vector2d side = body.vertices.row(b) - body.vertices.row(a);
       int k = 0;
       for (const int node : {a, body.middle_of(a, b), b})
-        use(nodes[static_cast<std::size_t>(node)], row, k++, Vector2d(side.y(), -side.x()).normalized());
+        use(nodes[static_cast<std::size_t>(node)], row, k++,
+            Vector2d(side.y(), -side.x()).normalized());
     }
   };
   visit(contact, [&](Node& node, Index row, int k, const Vector2d&) {
@@ -172,7 +184,8 @@ MatrixXd solve(const Body& body, int& steps) {
   SparseMatrix T(size, size), chosen(size, static_cast<Index>(free.size()));
   T.setFromTriplets(turned.begin(), turned.end());
   std::vector<Eigen::Triplet<double>> ones;
-  for (std::size_t k = 0; k < free.size(); ++k) ones.emplace_back(free[k], static_cast<Index>(k), 1);
+  for (std::size_t k = 0; k < free.size(); ++k)
+    ones.emplace_back(free[k], static_cast<Index>(k), 1);
   chosen.setFromTriplets(ones.begin(), ones.end());
   K = T.transpose() * K * T;
   const SparseMatrix inner = chosen.transpose() * K * chosen;
@@ -181,11 +194,12 @@ MatrixXd solve(const Body& body, int& steps) {
   VectorXd b = chosen.transpose() * (T.transpose() * load - K * u);
   const auto count = static_cast<Index>(contact.size());
   MatrixXd D(count, count);
-  for (Index c = 0; c < count; ++c) D.col(c) = factor.solve(VectorXd::Unit(b.size(), contact[c]))(contact);
+  for (Index c = 0; c < count; ++c)
+    D.col(c) = factor.solve(VectorXd::Unit(b.size(), contact[c]))(contact);
   const VectorXd without = factor.solve(b);
-  const VectorXd F = contact_forces(
-      D, without(contact) - Eigen::Map<VectorXd>(gap.data(), count),
-      Eigen::Map<VectorXd>(mu.data(), static_cast<Index>(mu.size())), steps);
+  const VectorXd F =
+      contact_forces(D, without(contact) - Eigen::Map<VectorXd>(gap.data(), count),
+                     Eigen::Map<VectorXd>(mu.data(), static_cast<Index>(mu.size())), steps);
   for (Index c = 0; c < count; ++c) b(contact[c]) += F(c);
   u += chosen * factor.solve(b);
   return (T * u).reshaped(2, body.nodes()).transpose();

@@ -35,8 +35,7 @@ VectorXd contact_forces(const MatrixXd& D, const VectorXd& b, const VectorXd& mu
     if ((F - before).norm() <= 1e-13 * F.norm()) {
       const VectorXd r = D * F + b;
       for (Eigen::Index i = 0; i < r.size(); i += components)
-        if (r(i) > 1e-9 * b.cwiseAbs().maxCoeff())
-          throw NotConverged("points are inside the wall");
+        if (r(i) > 1e-9 * b.cwiseAbs().maxCoeff()) throw NotConverged("points are inside the wall");
       return F;
     }
   }

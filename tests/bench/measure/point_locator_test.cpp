@@ -36,10 +36,10 @@ TEST(PointLocator, FindsTheStressOfEverySample) {
       for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i)
         EXPECT_TRUE(ring.locator.place_of(third.at_mm.col(i)));
       const Eigen::Index inner = samples.place(1, 1);
-      largest = std::max(
-          largest, (stress_at(ring.locator, ring.solution.stress, third.at_mm.col(inner)) -
-                    third.stress.col(inner))
-                       .norm());
+      largest =
+          std::max(largest, (stress_at(ring.locator, ring.solution.stress, third.at_mm.col(inner)) -
+                             third.stress.col(inner))
+                                .norm());
     }
   EXPECT_LT(largest, 1e-12);
 }
@@ -52,8 +52,8 @@ TEST(PointLocator, EndsAtTheCurveNotAtItsChord) {
       EXPECT_TRUE(ring.locator.place_of(inside * direction)) << turn << ' ' << inside;
     for (const double outside : {0.0, 0.99, 2.001, 5.0}) {
       EXPECT_FALSE(ring.locator.place_of(outside * direction)) << turn << ' ' << outside;
-      EXPECT_TRUE(std::isnan(
-          stress_at(ring.locator, ring.solution.stress, outside * direction).x()));
+      EXPECT_TRUE(
+          std::isnan(stress_at(ring.locator, ring.solution.stress, outside * direction).x()));
     }
   }
   EXPECT_FALSE(ring.locator.place_of({-1, 1}));

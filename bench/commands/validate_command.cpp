@@ -1,0 +1,303 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include "bench/commands/command_line.hpp"
+#include "bench/commands/commands.hpp"
+#include "bench/commands/part_solution.hpp"
+#include "bench/commands/planned_cases.hpp"
+#include "bench/commands/run_parts.hpp"
+#include "bench/measure/environment.hpp"
+#include "bench/plan/published_case.hpp"
+#include "bench/records/case_name.hpp"
+#include "bench/records/json_value.hpp"
+#include "solvers/methods.hpp"
+#include "support/atomic_file.hpp"
+#include "support/errors.hpp"
+#include "support/file_text.hpp"
+#include "support/lists.hpp"
+#include "support/text_table.hpp"
+#include "support/this_process.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr const char* validate_footer = R"(
+Each case is adapted to its total error by HYBRID. Printed are the published values, ours with what they may be off by, the deviation,
+and what is allowed and why. --method and --external run more methods on the adapted meshes; of displacement methods there are the
+values at points.
+In OUT: records, fields, meshes, and validation.json with the table.
+
+Exit status  0  every value of HYBRID agrees
+             1  some do not, or a case is not solved
+             2  wrong usage, or a file that cannot be used: one line on standard error
+
+Examples
+  {bench} validate
+  {bench} validate 'hertz*,kirsch' --external=mine.json
+)";
+
+// Our number for a published one, and half the width of its interval.
+struct Found {
+  std::optional<double> value, off;
+};
+
+Found scaled(double value, std::optional<double> off, double times) {
+  if (off) *off *= std::abs(times);
+  return {value * times, off};
+}
+
+// The column at the point of the face's polyline that is nearest to x; linear between its rows.
+Found on_face(const std::string& csv, const PublishedQuantity& asked) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = split_list(line);
+  const auto column = std::ranges::find(header, asked.of) - header.begin();
+  struct Row {
+    Eigen::Vector2d at;
+    double value;
+  };
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> cells = split_list(line);
+    if (cells[0] == asked.face)
+      rows.push_back({{std::stod(cells[2]), std::stod(cells[3])},
+                      std::stod(cells[static_cast<std::size_t>(column)])});
+  }
+  double nearest = std::numeric_limits<double>::infinity(), value = 0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const Eigen::Vector2d side = rows[k].at - rows[k - 1].at;
+    const double t =
+        side.isZero(0)
+            ? 0
+            : std::clamp((*asked.at_mm - rows[k - 1].at).dot(side) / side.squaredNorm(), 0., 1.);
+    const double distance = (rows[k - 1].at + t * side - *asked.at_mm).norm();
+    if (distance < nearest) {
+      nearest = distance;
+      value = (1 - t) * rows[k - 1].value + t * rows[k].value;
+    }
+  }
+  if (rows.size() < 2) return {};
+  return scaled(value, {}, asked.times);
+}
+
+// With the half width of its interval, where it has one.
+Found of_face(const Json& part, const PublishedQuantity& asked) {
+  for (const Json& face : part.at("faces")) {
+    const auto labels = face.at("labels").get<std::vector<std::string>>();
+    if (face.at("name") != asked.face && std::ranges::count(labels, asked.face) == 0) continue;
+    const Json& value = face.at(asked.of);
+    const Json* interval = nullptr;
+    if (asked.of == "pressure_MPa" && value.contains("in")) interval = &value["in"];
+    if (asked.of == "normal_N" && face.contains("normal_in_N")) interval = &face["normal_in_N"];
+    std::optional<double> off;
+    if (interval != nullptr)
+      off = ((*interval)[1].get<double>() - (*interval)[0].get<double>()) / 2;
+    return scaled(value.is_object() ? value.at("value").get<double>() : value.get<double>(), off,
+                  asked.times);
+  }
+  return {};
+}
+
+Found at_point(const Json& points, const PublishedQuantity& asked) {
+  static const std::map<std::string, std::pair<const char*, int>> places = {
+      {"sxx_MPa", {"stress_MPa", 0}},
+      {"syy_MPa", {"stress_MPa", 1}},
+      {"sxy_MPa", {"stress_MPa", 2}},
+      {"ux_mm", {"displacement_mm", 0}},
+      {"uy_mm", {"displacement_mm", 1}}};
+  const auto& [member, component] = places.at(asked.of);
+  for (const Json& point : points) {
+    const auto xy = point.at("at_mm").get<std::array<double, 2>>();
+    if (xy[0] == asked.at_mm->x() && xy[1] == asked.at_mm->y() && point.contains(member) &&
+        !point[member].is_null())
+      return scaled(point[member][static_cast<std::size_t>(component)].get<double>(), {},
+                    asked.times);
+  }
+  return {};
+}
+
+Found of_part(const Record& record, const Json& part, const PublishedQuantity& asked) {
+  if (asked.of == "strain_energy_Nmm")
+    return record.strain_energy_Nmm ? scaled(*record.strain_energy_Nmm, {}, asked.times) : Found();
+  if (part.is_null() || !part.contains(asked.of)) return {};
+  const Json& value = part[asked.of];
+  std::optional<double> off;
+  if (value.contains("off")) off = value["off"].get<double>();
+  return scaled(value.at("value").get<double>(), off, asked.times);
+}
+
+// fields: of the case, without extensions.
+Found found(const Record& record, const std::filesystem::path& fields,
+            const PublishedQuantity& asked) {
+  const auto text_of = [&](const char* ending) -> std::string {
+    const std::string file = fields.string() + ending;
+    std::error_code error;
+    return std::filesystem::exists(file, error) ? file_text(file) : "";
+  };
+  const auto json_in = [&](const char* ending) {
+    const std::string text = text_of(ending);
+    return text.empty() ? Json() : parse_json(text);
+  };
+  if (!asked.face.empty() && asked.at_mm) return on_face(text_of(".faces.csv"), asked);
+  const Json part = json_in(".answer.json");
+  if (!asked.face.empty()) return part.is_null() ? Found() : of_face(part, asked);
+  if (asked.at_mm) return at_point(json_in(".points.json"), asked);
+  return of_part(record, part, asked);
+}
+
+struct Judged {
+  const PublishedCase* of;
+  const PublishedQuantity* quantity;
+  std::string method;
+  Record record;
+  Found ours;
+
+  std::optional<double> deviation() const {  // relative; of zero absolute
+    if (!ours.value) return {};
+    const double size = std::abs(quantity->value);
+    return (*ours.value - quantity->value) / (size > 0 ? size : 1);
+  }
+  bool agrees() const {
+    return std::abs(deviation().value_or(2 * quantity->allowed + 1)) <= quantity->allowed;
+  }
+  std::string verdict() const {
+    if (!has_answer(record.status)) return std::string(name_of(record.status));
+    return !ours.value ? "not known" : agrees() ? "agrees" : "differs";
+  }
+};
+
+std::string table_of(const std::vector<Judged>& all) {
+  std::vector<std::vector<std::string>> rows = {{"case", "method", "quantity", "published", "ours",
+                                                 "±", "deviation", "allowed", "error total",
+                                                 "verdict"}};
+  const auto number = [](const std::optional<double>& x, const char* format) {
+    return x ? fmt::format(fmt::runtime(format), *x) : std::string("-");
+  };
+  for (const Judged& j : all) {
+    const std::optional<double> deviation = j.deviation();
+    rows.push_back(
+        {j.of->name, j.method, j.quantity->name,
+         fmt::format("{:.6g} {}", j.quantity->value, j.quantity->unit),
+         number(j.ours.value, "{:.6g}"), number(j.ours.off, "{:.2g}"),
+         deviation ? fmt::format("{:+.3f} %", 100 * *deviation) : "-",
+         fmt::format("{:g} %", 100 * j.quantity->allowed),
+         j.record.error_total ? fmt::format("{:.2g} %", 100 * *j.record.error_total) : "-",
+         j.verdict()});
+  }
+  return aligned_table(rows, 3);
+}
+
+Json json_of(const std::vector<Judged>& all) {
+  Json rows = Json::array();
+  for (const Judged& j : all)
+    rows.push_back({{"case", j.of->name},
+                    {"title", j.of->title},
+                    {"source", j.of->source},
+                    {"method", j.method},
+                    {"case_name", j.record.case_name},
+                    {"quantity", j.quantity->name},
+                    {"unit", j.quantity->unit},
+                    {"formula", j.quantity->formula},
+                    {"published", j.quantity->value},
+                    {"ours", or_null(j.ours.value)},
+                    {"off", or_null(j.ours.off)},
+                    {"deviation", or_null(j.deviation())},
+                    {"allowed", j.quantity->allowed},
+                    {"because", j.quantity->because},
+                    {"error_total", or_null(j.record.error_total)},
+                    {"time_s", or_null(j.record.time_s)},
+                    {"loop_time_s", or_null(j.record.adapt_time_s)},
+                    {"verdict", j.verdict()}});
+  return rows;
+}
+
+struct AskedCases {
+  std::string cases;
+  std::string methods;  // besides HYBRID
+  std::vector<std::filesystem::path> externals;
+  Options options = options_of_part();
+};
+
+AskedCases parse(int argc, const char* const* argv) {
+  AskedCases asked;
+  asked.options.output.folder = "results/validation";
+  CLI::App app("Published values and ours: closed forms, benchmarks of others.",
+               "{bench} validate");
+  app.footer(validate_footer);
+  app.add_option("CASE", asked.cases, "names or globs, separated by commas; all");
+  app.add_option("--method", asked.methods, "more methods, on the adapted meshes");
+  add_files(app, "--external", asked.externals, "declarations of other programs");
+  add_number(app, "--timeout", Least::above_zero, max_limit, asked.options.limits.timeout_s,
+             "seconds that one solve may take");
+  app.add_option("--out", asked.options.output.folder, "folder of the output files")
+      ->capture_default_str();
+  parse_command_line(app, argc, argv);
+  return asked;
+}
+
+// Of one case: HYBRID on adapted meshes, then the others on the last.
+void judge(const PublishedCase& of, const AskedCases& asked, std::vector<Judged>& all) {
+  Options options = asked.options;
+  options.run.meshes = of.model.string();
+  options.run.cases.points_mm = of.points_mm();
+  const PartGoal goal{of.error, PartQuantity::energy};
+  ask_for(goal, of.degree, options);
+  std::vector<SceneFile> scenes =
+      of.scene ? std::vector<SceneFile>{*of.scene} : read_scenes(options.run);
+  const std::vector<PosedScene> posed = posed_scenes(options, std::move(scenes));
+  const auto add = [&](const Record& record, const std::filesystem::path& fields) {
+    for (const PublishedQuantity& quantity : of.quantities)
+      all.push_back({&of, &quantity, record.method, record, found(record, fields, quantity)});
+  };
+  const std::vector<Method> others = other_programs(asked.externals, options.limits);
+  const std::string names = asked.methods + (others.empty()          ? ""
+                                             : asked.methods.empty() ? "EXTERNAL:*"
+                                                                     : ",EXTERNAL:*");
+  const std::vector<Method> more =
+      names.empty() ? std::vector<Method>() : select_methods(names, others);
+  const std::optional<SolvedPart> solved = solved_part(posed.front(), options, goal, more);
+  if (!solved) {
+    Record none;
+    none.conclude({Status::breakdown, "no level has an answer"});
+    return add(none, {});
+  }
+  for (std::size_t k = 0; k < solved->result.names.size(); ++k) {
+    const Record record = solved->result.record(k);
+    add(record, options.output.folder / "fields" / name_of(record).file());
+  }
+}
+
+}  // namespace
+
+int validate_command(int argc, const char* const* argv) {
+  AskedCases asked = parse(argc, argv);
+  const std::vector<PublishedCase> cases = published_cases(asked.cases);
+  check_takes_records(asked.options.output.folder);
+  catch_interrupts();
+  make_folder(asked.options.output.folder);
+  set_threads(asked.options.run.cases.threads);
+  std::vector<Judged> all;
+  for (const PublishedCase& of : cases) {
+    judge(of, asked, all);
+    asked.options.output.append = true;  // to the records of the first
+  }
+  fmt::print("\n{}\n", table_of(all));
+  write_file_atomically(asked.options.output.folder / "validation.json",
+                        indented_json_text(json_of(all), 1) + "\n");
+  const auto differs = [](const Judged& j) {
+    return j.method.starts_with("HYBRID") && !j.agrees();
+  };
+  const auto count = std::ranges::count_if(all, differs);
+  fmt::print("{} cases, {} values; {} of HYBRID's differ\n", cases.size(), all.size(), count);
+  return count == 0 ? all_ok : some_case_failed;
+}
+
+}  // namespace airybench
