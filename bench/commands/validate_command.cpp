@@ -2,8 +2,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -43,52 +43,48 @@ Examples
   {bench} validate 'hertz*,kirsch' --external=mine.json
 )";
 
-// Our number for a published one, and half the width of its interval.
+// Our numbers for those published, and half the width of the interval of a single one.
 struct Found {
-  std::optional<double> value, off;
+  std::vector<double> values;  // none: it is not known
+  std::optional<double> off = {};
 };
 
-Found scaled(double value, std::optional<double> off, double times) {
-  if (off) *off *= std::abs(times);
-  return {value * times, off};
-}
-
-// The column at the point of the face's polyline that is nearest to x; linear between its rows.
+// The column of a face at points, of its polyline the nearest; linear between its rows.
 Found on_face(const std::string& csv, const PublishedQuantity& asked) {
-  std::istringstream lines(csv);
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> header = split_list(line);
-  const auto column = std::ranges::find(header, asked.of) - header.begin();
   struct Row {
     Eigen::Vector2d at;
     double value;
   };
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = split_list(line);
+  const auto column =
+      static_cast<std::size_t>(std::ranges::find(header, asked.of) - header.begin());
   std::vector<Row> rows;
   while (std::getline(lines, line)) {
     const std::vector<std::string> cells = split_list(line);
     if (cells[0] == asked.face)
-      rows.push_back({{std::stod(cells[2]), std::stod(cells[3])},
-                      std::stod(cells[static_cast<std::size_t>(column)])});
-  }
-  double nearest = std::numeric_limits<double>::infinity(), value = 0;
-  for (std::size_t k = 1; k < rows.size(); ++k) {
-    const Eigen::Vector2d side = rows[k].at - rows[k - 1].at;
-    const double t =
-        side.isZero(0)
-            ? 0
-            : std::clamp((*asked.at_mm - rows[k - 1].at).dot(side) / side.squaredNorm(), 0., 1.);
-    const double distance = (rows[k - 1].at + t * side - *asked.at_mm).norm();
-    if (distance < nearest) {
-      nearest = distance;
-      value = (1 - t) * rows[k - 1].value + t * rows[k].value;
-    }
+      rows.push_back({{std::stod(cells[2]), std::stod(cells[3])}, std::stod(cells[column])});
   }
   if (rows.size() < 2) return {};
-  return scaled(value, {}, asked.times);
+  const auto value_at = [&](const Eigen::Vector2d& x) {
+    double nearest = std::numeric_limits<double>::infinity(), value = 0;
+    for (std::size_t k = 1; k < rows.size(); ++k) {
+      const Eigen::Vector2d side = rows[k].at - rows[k - 1].at, from = x - rows[k - 1].at;
+      const double t = side.isZero(0) ? 0 : std::clamp(from.dot(side) / side.squaredNorm(), 0., 1.);
+      if (const double distance = (from - t * side).norm(); distance < nearest) {
+        nearest = distance;
+        value = (1 - t) * rows[k - 1].value + t * rows[k].value;
+      }
+    }
+    return value;
+  };
+  Found found;
+  std::ranges::transform(asked.at_mm, std::back_inserter(found.values), value_at);
+  return found;
 }
 
-// With the half width of its interval, where it has one.
 Found of_face(const Json& part, const PublishedQuantity& asked) {
   for (const Json& face : part.at("faces")) {
     const auto labels = face.at("labels").get<std::vector<std::string>>();
@@ -97,41 +93,42 @@ Found of_face(const Json& part, const PublishedQuantity& asked) {
     const Json* interval = nullptr;
     if (asked.of == "pressure_MPa" && value.contains("in")) interval = &value["in"];
     if (asked.of == "normal_N" && face.contains("normal_in_N")) interval = &face["normal_in_N"];
-    std::optional<double> off;
+    Found found{{(value.is_object() ? value.at("value") : value).get<double>()}};
     if (interval != nullptr)
-      off = ((*interval)[1].get<double>() - (*interval)[0].get<double>()) / 2;
-    return scaled(value.is_object() ? value.at("value").get<double>() : value.get<double>(), off,
-                  asked.times);
+      found.off = ((*interval)[1].get<double>() - (*interval)[0].get<double>()) / 2;
+    return found;
   }
   return {};
 }
 
-Found at_point(const Json& points, const PublishedQuantity& asked) {
-  static const std::map<std::string, std::pair<const char*, int>> places = {
+// points: NAME.points.json, those of all quantities of the case.
+Found at_points(const Json& points, const PublishedQuantity& asked) {
+  static const std::map<std::string, std::pair<const char*, std::size_t>> places = {
       {"sxx_MPa", {"stress_MPa", 0}},
       {"syy_MPa", {"stress_MPa", 1}},
       {"sxy_MPa", {"stress_MPa", 2}},
       {"ux_mm", {"displacement_mm", 0}},
       {"uy_mm", {"displacement_mm", 1}}};
   const auto& [member, component] = places.at(asked.of);
-  for (const Json& point : points) {
-    const auto xy = point.at("at_mm").get<std::array<double, 2>>();
-    if (xy[0] == asked.at_mm->x() && xy[1] == asked.at_mm->y() && point.contains(member) &&
-        !point[member].is_null())
-      return scaled(point[member][static_cast<std::size_t>(component)].get<double>(), {},
-                    asked.times);
-  }
-  return {};
+  Found found;
+  for (const Eigen::Vector2d& x : asked.at_mm)
+    for (const Json& point : points)
+      if (point.at("at_mm") == Json{x.x(), x.y()} && point.contains(member) &&
+          !point[member].is_null()) {
+        found.values.push_back(point[member][component].get<double>());
+        break;
+      }
+  return found.values.size() == asked.values.size() ? found : Found();
 }
 
 Found of_part(const Record& record, const Json& part, const PublishedQuantity& asked) {
   if (asked.of == "strain_energy_Nmm")
-    return record.strain_energy_Nmm ? scaled(*record.strain_energy_Nmm, {}, asked.times) : Found();
+    return record.strain_energy_Nmm ? Found{{*record.strain_energy_Nmm}} : Found();
   if (part.is_null() || !part.contains(asked.of)) return {};
   const Json& value = part[asked.of];
-  std::optional<double> off;
-  if (value.contains("off")) off = value["off"].get<double>();
-  return scaled(value.at("value").get<double>(), off, asked.times);
+  Found found{{value.at("value").get<double>()}};
+  if (value.contains("off")) found.off = value["off"].get<double>();
+  return found;
 }
 
 // fields: of the case, without extensions.
@@ -146,11 +143,19 @@ Found found(const Record& record, const std::filesystem::path& fields,
     const std::string text = text_of(ending);
     return text.empty() ? Json() : parse_json(text);
   };
-  if (!asked.face.empty() && asked.at_mm) return on_face(text_of(".faces.csv"), asked);
-  const Json part = json_in(".answer.json");
-  if (!asked.face.empty()) return part.is_null() ? Found() : of_face(part, asked);
-  if (asked.at_mm) return at_point(json_in(".points.json"), asked);
-  return of_part(record, part, asked);
+  const bool is_of_face = !asked.face.empty(), is_at_points = !asked.at_mm.empty();
+  Found found;
+  if (is_of_face && is_at_points)
+    found = on_face(text_of(".faces.csv"), asked);
+  else if (is_at_points)
+    found = at_points(json_in(".points.json"), asked);
+  else if (const Json part = json_in(".answer.json"); !is_of_face)
+    found = of_part(record, part, asked);
+  else if (!part.is_null())
+    found = of_face(part, asked);
+  for (double& value : found.values) value *= asked.times;
+  if (found.off) *found.off *= std::abs(asked.times);
+  return found;
 }
 
 struct Judged {
@@ -160,17 +165,23 @@ struct Judged {
   Record record;
   Found ours;
 
-  std::optional<double> deviation() const {  // relative; of zero absolute
-    if (!ours.value) return {};
-    const double size = std::abs(quantity->value);
-    return (*ours.value - quantity->value) / (size > 0 ? size : 1);
+  // The largest, with its sign, relative to the largest value; where all are zero absolute.
+  std::optional<double> deviation() const {
+    std::optional<double> worst;
+    const double size = quantity->largest() > 0 ? quantity->largest() : 1;
+    for (std::size_t k = 0; k < ours.values.size(); ++k) {
+      const double off = (ours.values[k] - quantity->values[k]) / size;
+      if (!worst || !(std::abs(off) <= std::abs(*worst))) worst = off;
+    }
+    return worst;
   }
   bool agrees() const {
-    return std::abs(deviation().value_or(2 * quantity->allowed + 1)) <= quantity->allowed;
+    const std::optional<double> off = deviation();
+    return off && std::abs(*off) <= quantity->allowed;
   }
   std::string verdict() const {
     if (!has_answer(record.status)) return std::string(name_of(record.status));
-    return !ours.value ? "not known" : agrees() ? "agrees" : "differs";
+    return ours.values.empty() ? "not known" : agrees() ? "agrees" : "differs";
   }
 };
 
@@ -178,16 +189,20 @@ std::string table_of(const std::vector<Judged>& all) {
   std::vector<std::vector<std::string>> rows = {{"case", "method", "quantity", "published", "ours",
                                                  "±", "deviation", "allowed", "error total",
                                                  "verdict"}};
-  const auto number = [](const std::optional<double>& x, const char* format) {
-    return x ? fmt::format(fmt::runtime(format), *x) : std::string("-");
+  const auto number = [](const std::optional<double>& x) {
+    return x ? fmt::format("{:.2g}", *x) : std::string("-");
+  };
+  const auto values = [](const std::vector<double>& of) {
+    return of.empty()      ? std::string("-")
+           : of.size() > 1 ? fmt::format("{} points", of.size())
+                           : fmt::format("{:.6g}", of.front());
   };
   for (const Judged& j : all) {
     const std::optional<double> deviation = j.deviation();
     rows.push_back(
         {j.of->name, j.method, j.quantity->name,
-         fmt::format("{:.6g} {}", j.quantity->value, j.quantity->unit),
-         number(j.ours.value, "{:.6g}"), number(j.ours.off, "{:.2g}"),
-         deviation ? fmt::format("{:+.3f} %", 100 * *deviation) : "-",
+         fmt::format("{} {}", values(j.quantity->values), j.quantity->unit), values(j.ours.values),
+         number(j.ours.off), deviation ? fmt::format("{:+.3f} %", 100 * *deviation) : "-",
          fmt::format("{:g} %", 100 * j.quantity->allowed),
          j.record.error_total ? fmt::format("{:.2g} %", 100 * *j.record.error_total) : "-",
          j.verdict()});
@@ -197,7 +212,9 @@ std::string table_of(const std::vector<Judged>& all) {
 
 Json json_of(const std::vector<Judged>& all) {
   Json rows = Json::array();
-  for (const Judged& j : all)
+  for (const Judged& j : all) {
+    Json points = Json::array();
+    for (const Eigen::Vector2d& x : j.quantity->at_mm) points.push_back({x.x(), x.y()});
     rows.push_back({{"case", j.of->name},
                     {"title", j.of->title},
                     {"source", j.of->source},
@@ -206,8 +223,9 @@ Json json_of(const std::vector<Judged>& all) {
                     {"quantity", j.quantity->name},
                     {"unit", j.quantity->unit},
                     {"formula", j.quantity->formula},
-                    {"published", j.quantity->value},
-                    {"ours", or_null(j.ours.value)},
+                    {"at_mm", points},
+                    {"published", j.quantity->values},
+                    {"ours", j.ours.values},
                     {"off", or_null(j.ours.off)},
                     {"deviation", or_null(j.deviation())},
                     {"allowed", j.quantity->allowed},
@@ -216,6 +234,7 @@ Json json_of(const std::vector<Judged>& all) {
                     {"time_s", or_null(j.record.time_s)},
                     {"loop_time_s", or_null(j.record.adapt_time_s)},
                     {"verdict", j.verdict()}});
+  }
   return rows;
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iterator>
 
 #include "bench/records/json_value.hpp"
 #include "mesh/selection.hpp"
@@ -44,29 +46,50 @@ double percent(const JsonValue& value) {
   return given / 100;
 }
 
+// Numbers, or a list of them: with one value "at_mm" is one point.
+std::vector<double> read_values(const JsonValue& value) {
+  if (value.json.is_number()) return {value.json.get<double>()};
+  return value.as<std::vector<double>>("a number, or a list of them at as many points");
+}
+std::vector<Eigen::Vector2d> read_points(const JsonValue& value, bool is_list) {
+  constexpr const char* allowed = "x and y, or a list of as many of these as there are values";
+  std::vector<Eigen::Vector2d> points;
+  if (is_list)
+    for (const auto& [x, y] : value.as<std::vector<std::array<double, 2>>>(allowed))
+      points.emplace_back(x, y);
+  else
+    points.emplace_back(
+        Eigen::Map<const Eigen::Vector2d>(value.as<std::array<double, 2>>(allowed).data()));
+  return points;
+}
+
 PublishedQuantity read_quantity(const JsonValue& value) {
   PublishedQuantity q;
+  bool is_list = false;
   value.object(
       {text("name", q.name),
-       number("value", q.value),
+       {"value",
+        [&](const JsonValue& given) {
+          q.values = read_values(given);
+          is_list = given.json.is_array();
+        },
+        true},
        text("unit", q.unit),
        text("of", q.of),
        text("formula", q.formula),
        optional_text("face", q.face),
-       {"at_mm",
-        [&q](const JsonValue& at) {
-          const auto xy = at.as<std::array<double, 2>>("two numbers");
-          q.at_mm = Eigen::Vector2d(xy[0], xy[1]);
-        }},
+       {"at_mm", [&](const JsonValue& at) { q.at_mm = read_points(at, is_list); }},
        number("times", q.times, false),
-       {"allowed_percent", [&q](const JsonValue& allowed) { q.allowed = percent(allowed); }, true},
+       {"allowed_percent", [&](const JsonValue& allowed) { q.allowed = percent(allowed); }, true},
        text("because", q.because)});
+  if (q.values.empty() || (is_list && q.at_mm.size() != q.values.size()))
+    value.at("at_mm", value.json.value("at_mm", Json())).fail("as many points as values");
   const JsonValue of = value.at("of", value.json["of"]);
-  if (!q.face.empty() && q.at_mm)
+  if (!q.face.empty() && !q.at_mm.empty())
     of.one_of(of_faces_at_points, std::identity(), ", of a face at a point");
   else if (!q.face.empty())
     of.one_of(of_faces, std::identity(), ", of a face");
-  else if (q.at_mm)
+  else if (!q.at_mm.empty())
     of.one_of(at_points, std::identity(), ", at a point");
   else
     of.one_of(of_parts, std::identity(), ", of the part");
@@ -75,10 +98,16 @@ PublishedQuantity read_quantity(const JsonValue& value) {
 
 }  // namespace
 
+double PublishedQuantity::largest() const {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
 std::vector<Eigen::Vector2d> PublishedCase::points_mm() const {
   std::vector<Eigen::Vector2d> points;
   for (const PublishedQuantity& quantity : quantities)
-    if (quantity.at_mm && quantity.face.empty()) points.push_back(*quantity.at_mm);
+    if (quantity.face.empty()) std::ranges::copy(quantity.at_mm, std::back_inserter(points));
   return points;
 }
 

@@ -12,18 +12,22 @@
 
 namespace airybench {
 
-// A number that a source states, and where it is in our answer: of a face (part_answer.hpp, its
-// members, or a column of NAME.faces.csv at a point), at a point, or of the whole part.
+// A number that a source states, or a profile of them, and where it is in our answer: of a face
+// (part_answer.hpp, its members, or a column of NAME.faces.csv at points), at points, or of the
+// part.
 struct PublishedQuantity {
   std::string name, unit;
-  double value = 0;
-  std::string formula;  // of the value, or where it is printed
-  double allowed = 0;   // relative deviation
-  std::string because;  // what the source idealises, or how many digits it prints
-  std::string face;     // of a pair its first; empty: none
-  std::string of;       // "pressure_MPa", "closed_mm", "sxx_MPa", "ux_mm", "von_mises_MPa" …
-  double times = 1;     // our number by this is the published one
-  std::optional<Eigen::Vector2d> at_mm = {};
+  std::vector<double> values;          // one, or one per point
+  std::vector<Eigen::Vector2d> at_mm;  // empty: of a face or the part as a whole
+  std::string formula;                 // of the values, or where they are printed
+  double allowed = 0;                  // deviation, relative to the largest
+  std::string because;                 // what the source idealises, or how many digits it prints
+  std::string face;                    // of a pair its first; empty: none
+  std::string of;    // "pressure_MPa", "closed_mm", "sxx_MPa", "ux_mm", "von_mises_MPa" …
+  double times = 1;  // our number by this is the published one
+
+  bool is_profile() const { return values.size() > 1; }
+  double largest() const;  // of the values, in size
 };
 
 struct PublishedCase {
