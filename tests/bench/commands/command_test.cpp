@@ -342,9 +342,9 @@ TEST(Command, ARunSaysThatItReplacesTheRecordsOfItsFolder) {
 TEST(Command, PrintedCommandsBeginWithWhatTheUserStarted) {
   const BenchCommand bench;
   const std::string typed = testing::bench_executable().string(), list = bench.run("--help").out;
-  for (const char* command :
-       {"", "advise ", "check ", "claims ", "compare ", "explain ", "export ", "export-problem ",
-        "list ", "merge ", "new-external ", "new-scene ", "replay ", "solve ", "track "}) {
+  for (const char* command : {"", "advise ", "check ", "claims ", "compare ", "explain ", "export ",
+                              "export-problem ", "list ", "merge ", "new-external ", "new-scene ",
+                              "replay ", "solve ", "track ", "validate "}) {
     EXPECT_NE(list.find("\n  " + typed + " " + command), std::string::npos) << command;
     const std::string asked = std::string(command) + "--help";
     for (const auto& [before, called] :
