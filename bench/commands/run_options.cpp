@@ -30,6 +30,7 @@ Other commands (each has --help)
   {bench} claims DIR         the paper's sentences, checked against a results folder
   {bench} compare A,… B,…    two programs' runs, case by case: faster, slower, or not separated
   {bench} track              a run that is added to a history and judged
+  {bench} validate           published values, closed forms and benchmarks, and ours
   {bench} export DIR         tables for papers; Google Benchmark's JSON, CSV
   {bench} export-problem     a problem's matrices, for your own solvers
   {bench} merge DIR...       the shards of a run, joined
