@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/commands/command_line.hpp"
 #include "bench/commands/run_parts.hpp"
 #include "bench/external/answered.hpp"
 #include "bench/plan/scene_file.hpp"
@@ -85,6 +86,13 @@ py::object judged(const std::shared_ptr<BoundProblem>& problem, const BoundSolut
   {
     const py::gil_scoped_release release;
     const std::lock_guard lock(problem->judging);
+    // Interrupted, it has no reference and would keep that.
+    struct Forget {
+      ~Forget() {
+        if (Deadline::all_passed || std::uncaught_exceptions() > 0) of.judge.reset();
+      }
+      BoundProblem& of;
+    } forget{*problem};
     if (!problem->judge || problem->judged_at != target_error) {
       problem->judge = std::make_unique<Judge>(problem->posed.problem, settings, LeftOut{});
       problem->judged_at = target_error;
@@ -118,18 +126,15 @@ std::shared_ptr<Levels> adapted(const std::shared_ptr<BoundProblem>& problem,
                                 std::optional<double> error, std::optional<int> unknowns,
                                 const py::object& degree, std::optional<double> marking,
                                 int threads, double timeout) {
-  constexpr double low_error = 0.001;  // as --degree=auto
   if (error.has_value() == unknowns.has_value() || (error && !(*error > 0 && *error < 1)))
     throw UsageError("adapt: error or unknowns (allowed: one of them, an error from 0 to 1)");
-  const bool is_auto = py::isinstance<py::str>(degree);
-  if (is_auto && std::string(py::str(degree)) != "auto")
-    throw UsageError("adapt: degree: '" + std::string(py::str(degree)) +
-                     "' (allowed: " + fmt::format("1 to {}, 'auto')", highest_degree));
-  Method method = adapting_method(
-      hybrid_of_degree(is_auto ? (error.value_or(1) < low_error ? 3 : 2) : degree.cast<int>()));
+  RunSettings run;
+  run.adapt.goals = {AdaptGoal{error, unknowns}};
+  read_degree(py::str(degree), false, run);
+  const Method method = adapting_method(run.adapt.by);
   const Mesh& mesh = problem->body()->mesh;
   SceneFile scene = scene_on(mesh, scene_file_of(problem->posed.scene_definition, mesh.name));
-  const AdaptiveSettings settings = {.goals = {AdaptGoal{error, unknowns}},
+  const AdaptiveSettings settings = {.goals = run.adapt.goals,
                                      .marking = marking,
                                      .timeout_s = timeout,
                                      .threads = threads,

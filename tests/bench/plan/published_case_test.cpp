@@ -28,7 +28,8 @@ class PublishedCaseFile : public ::testing::Test {
 TEST_F(PublishedCaseFile, IsRead) {
   const PublishedCase ring = read(
       quantity(R"("of": "sxx_MPa", "at_mm": [1, 2], "value": 3, "times": 2)") + "," +
-      quantity(R"("of": "pressure_MPa", "face": "contact", "at_mm": [[0, 1], [2, 3]], "value": [-5, 4])"));
+      quantity(
+          R"("of": "pressure_MPa", "face": "contact", "at_mm": [[0, 1], [2, 3]], "value": [-5, 4])"));
   EXPECT_EQ(ring.name, "ring");
   EXPECT_EQ(ring.model, folder_ / "ring.geo");
   EXPECT_EQ(ring.scene->scene.name, "ring");
@@ -48,9 +49,11 @@ TEST_F(PublishedCaseFile, WhatIsWrongIsNamed) {
            {quantity(R"("of": "sxx_MPa", "value": 3)"), "quantities: of"},
            {quantity(R"("of": "slip_mm", "face": "contact", "value": 3)"), "quantities: of"},
            {quantity(R"("of": "sxx_MPa", "at_mm": [1], "value": 3)"), "quantities: at_mm"},
-           {quantity(R"("of": "sxx_MPa", "at_mm": [[1, 2]], "value": [3, 4])"), "quantities: at_mm"},
+           {quantity(R"("of": "sxx_MPa", "at_mm": [[1, 2]], "value": [3, 4])"),
+            "quantities: at_mm"},
            {quantity(R"("of": "sxx_MPa", "at_mm": [1, 2], "value": "3")"), "quantities: value"},
-           {quantity(R"("of": "sxx_MPa", "at_mm": [1, 2], "value": 3, "more": 4)"), "quantities: more"},
+           {quantity(R"("of": "sxx_MPa", "at_mm": [1, 2], "value": 3, "more": 4)"),
+            "quantities: more"},
            {R"({"name": "n"})", "quantities: value"}}) {
     const auto what = testing::complaint_of<InputError>([&, &of = given] { read(of); });
     EXPECT_TRUE(testing::contains(what, file_.string() + ": " + named)) << given << ": " << what;
