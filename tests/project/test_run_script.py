@@ -45,6 +45,9 @@ esac"""
         for planned, said in ((":", ""), ("echo '[3/4] Building CXX object a.cpp.o'", "[1/4] Building\n")):
             ran = self.call("build", "release", "bench", stubs={"cmake": ninja % planned})
             self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "", said))
+        ran = self.call("build", "release", "meshgen",  # also with --quiet
+                        stubs={"cmake": 'case "$*" in *" --target "*) echo "ninja: no work to do." ;; esac'})
+        self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "", ""))
 
     def test_a_dry_run_tells_what_is_to_be_compiled(self) -> None:
         """Globs that Ninja checks would hide it: it begins and ends with CMake then."""
@@ -186,8 +189,9 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
         with tempfile.TemporaryDirectory() as name:
             project = Path(name, "project")
             self.project_in(Path(name))
-            for character, status in zip('"#;[]\\\n$ \'(&%ß', 7 * [2] + 8 * [0]):
-                other = project.rename(Path(name, f"a{character}b"))
+            taken = {f"a{character}b": 0 for character in "$ '(&%ß"}
+            for named, status in ({f"a{character}b": 2 for character in '"#;[]\\\n|<>'} | {"a\n": 2} | taken).items():
+                other = project.rename(Path(name, named))
                 ran = subprocess.run([other / "run", "bench", "export"], text=True, capture_output=True, check=False,
                                      env={"PATH": f"{name}:/usr/bin:/bin", "AIRYBENCH_INSTALL": "no"})
                 self.assertEqual((ran.returncode, ran.stderr.count("\n")), (status, status // 2), ran.stderr)
@@ -261,6 +265,27 @@ exit ${CODE:-0}''')
                               (("one", "a1"), ("two", "b1"), ("one", "a2"), ("two", "b2"))])
             self.assertEqual(ran.stdout.splitlines()[-1], "bench compare --names=./one,./two o/a1,o/a2 o/b1,o/b2")
             self.assertEqual(ran.stdout.count("\n"), 1)  # no tables of the runs
+
+    def test_an_unpacked_tree_is_no_part_of_the_repository_around_it(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name).resolve()
+            git = ["git", "-C", name, "-c", "user.name=test", "-c", "user.email=test@localhost"]
+            for command in (["init", "--quiet"], ["commit", "--quiet", "--allow-empty", "-m", "its own"]):
+                subprocess.run([*git, *command], check=True)
+            ran = self.compare(folder, "./one", "HEAD")
+            self.assertEqual((ran.returncode, ran.stdout), (2, ""))
+            self.assertEqual(ran.stderr, f"run: compare: HEAD (allowed: a program): {folder}/project is no repository\n")
+            (folder / "project/.ci").mkdir()
+            shutil.copy(RUN.parent / ".ci/format", folder / "project/.ci")
+            ran = subprocess.run([folder / "project/.ci/format"], text=True, capture_output=True, check=False)
+            self.assertEqual((ran.returncode, ran.stdout, ran.stderr),
+                             (2, "", f"run: format: {folder}/project: git lists no sources\n"))
+            (folder / "project/CMakeLists.txt").touch()
+            for revision in ("unknown", r"[0-9a-f]{40}"):  # as it is; as a part of that repository
+                subprocess.run(["cmake", f"-DSOURCE_DIR={folder}/project", f"-DOUTPUT={folder}/info.cpp", "-P",
+                                RUN.parent / "cmake/build_info.cmake"], check=True)
+                self.assertRegex((folder / "info.cpp").read_text(), f'git_revision = "{revision}"')
+                subprocess.run([*git, "add", "project/CMakeLists.txt"], check=True)
 
     def test_what_is_neither_a_program_nor_a_revision_is_refused(self) -> None:
         for arguments, said in ((("./one", "nowhere"), "nowhere (allowed: a git revision, or a program)"),
