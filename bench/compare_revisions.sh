@@ -12,10 +12,14 @@ unset AIRYBENCH_BUILD_DIR # a clone builds in itself
 
 # program_of A: the file, or bench of a revision, which is built in a clone.
 program_of() {
-  local revision source
+  local revision said source
   if [[ -f $1 && -x $1 ]]; then
     realpath -- "$1"
     return
+  fi
+  if [[ -n $(git -C "$project" rev-parse --show-prefix 2>/dev/null) ]]; then
+    echo "run: compare: $1 (allowed: a program): $project is no repository" >&2
+    exit 2
   fi
   if ! revision=$(git -C "$project" rev-parse --quiet --verify "$1^{commit}" 2>&1); then
     echo "run: compare: $1 (allowed: a git revision, or a program)${revision:+: ${revision%%$'\n'*}}" >&2
@@ -23,9 +27,11 @@ program_of() {
   fi
   source=$trees/compare/$revision
   if [[ ! -e $source/CMakeLists.txt ]]; then
-    rm -rf "$source"
-    git clone --quiet --no-checkout "$project" "$source" >&2
-    git -C "$source" checkout --quiet "$revision" >&2
+    if ! said=$({ rm -rf "$source" && git clone --quiet --no-checkout "$project" "$source" &&
+      git -C "$source" checkout --quiet "$revision"; } 2>&1); then
+      echo "run: compare: $1 cannot be cloned to $source: ${said%%$'\n'*}" >&2
+      exit 2
+    fi
   fi
   if ! AIRYBENCH_FIGURES=no "$source/run" bench --help >/dev/null; then
     echo "run: compare: $1 cannot be built" >&2

@@ -1,8 +1,11 @@
 # Writes build_info.cpp at every build; it changes only when its content does.
+# Sources that were unpacked inside another repository are none of it.
+execute_process(COMMAND git -C "${SOURCE_DIR}" ls-files --error-unmatch CMakeLists.txt
+                OUTPUT_QUIET ERROR_QUIET RESULT_VARIABLE not_tracked)
 execute_process(COMMAND git -C "${SOURCE_DIR}" rev-parse HEAD
                 OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
                 RESULT_VARIABLE no_git)
-if(no_git)
+if(not_tracked OR no_git)
   set(revision "unknown")
   set(dirty "unknown")
 else()

@@ -41,7 +41,7 @@ class Workshop:
 
 
 def build(source: Path, peers: bool) -> None:
-    wanted = [["bench", "--list"], ["meshgen", "--help"]] + ([["peers"]] if peers else [])
+    wanted = [["bench", "--help"], ["meshgen", "--help"]] + ([["peers"]] if peers else [])
     for command in wanted:
         ran = call(source / "run", *command, cwd=source, stdout=subprocess.DEVNULL)
         if ran.returncode:
