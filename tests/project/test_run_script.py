@@ -163,11 +163,11 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
                               capture_output=True, check=False,
                               env={"PATH": f"{folder}:/usr/bin:/bin", "AIRYBENCH_INSTALL": "no"})
 
-    def run_bench(self, folder: Path, before: str) -> subprocess.CompletedProcess:
+    def run_bench(self, folder: Path, before: str, command: str = "bench export") -> subprocess.CompletedProcess:
         project = folder / "project"
         if not project.exists():
             self.project_in(folder)
-        return subprocess.run(["bash", "-c", f"{before} project/run bench export", "bash"], cwd=folder, text=True,
+        return subprocess.run(["bash", "-c", f"{before} project/run {command}", "bash"], cwd=folder, text=True,
                               capture_output=True, check=False,
                               env={"PATH": f"{folder}:/usr/bin:/bin", "AIRYBENCH_INSTALL": "no"})
 
@@ -184,6 +184,12 @@ case "$*" in *" -n") ;; *--quiet) echo begin >> {folder}/log; sleep 0.3; echo en
                                   f"{folder}/one/trees: cannot be written (AIRYBENCH_BUILD_DIR=FOLDER: build there)")):
                 ran = self.run_bench(folder, before)
                 self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (2, "", f"run: {said}\n"))
+            # Bash opens the script in place of a closed stream.
+            for before in ("exec 2>&-;", "exec 2>/dev/full;"):
+                self.assertEqual(self.run_bench(folder, before, "nonsense").returncode, 2)
+            (folder / "project/build/release/bench/bench").write_text("#!/bin/sh\ncat; echo said >&2\n")
+            self.assertEqual(self.run_bench(folder, "exec <&- 2>&-;").returncode, 0)
+            self.assertEqual(self.run_bench(folder, "exec <&-;").stdout, "")
 
     def test_folders_that_cmake_cannot_have_are_refused(self) -> None:
         with tempfile.TemporaryDirectory() as name:
