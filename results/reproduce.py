@@ -86,7 +86,8 @@ def main() -> int:
         try:
             return run(parser.parse_args())
         except (Refused, OSError) as wrong:
-            print(f"reproduce: {wrong}", file=sys.stderr)
+            named = isinstance(wrong, OSError) and wrong.filename
+            print(f"reproduce: {wrong.filename}: {wrong.strerror}" if named else f"reproduce: {wrong}", file=sys.stderr)
             return 2
         except KeyboardInterrupt:  # a second call continues
             return 128 + signal.SIGINT

@@ -49,6 +49,14 @@ esac"""
                         stubs={"cmake": 'case "$*" in *" --target "*) echo "ninja: no work to do." ;; esac'})
         self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "", ""))
 
+    def test_sources_from_the_future_are_named(self) -> None:
+        """Ninja would run CMake a hundred times, which takes minutes."""
+        stubs = {"cmake": 'case "$*" in *" -n") echo "[0/1] Re-running CMake..." ;; *" --target "*) sleep 9 ;; esac',
+                 "find": "echo CMakeLists.txt"}
+        ran = self.call("build", "release", "bench", stubs=stubs)
+        self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (
+            2, "", "run: CMakeLists.txt: is from the future (allowed: touch it, or set the clock)\n"))
+
     def test_a_dry_run_tells_what_is_to_be_compiled(self) -> None:
         """Globs that Ninja checks would hide it: it begins and ends with CMake then."""
         for file in RUN.parent.rglob("CMakeLists.txt"):
@@ -245,6 +253,12 @@ exit ${CODE:-0}''')
                                  capture_output=True, check=False)
             self.assertEqual((ran.returncode, ran.stderr), (0, "run: not all figures of a b are drawn\n"))
             self.assertEqual(list((folder / "tmp").iterdir()), [])
+            (folder / "mktemp").write_text("#!/bin/sh\necho full >&2\nexit 1\n")  # a full disk
+            (folder / "mktemp").chmod(0o755)
+            ran = subprocess.run([project / "run", "bench"], env=environment, text=True, capture_output=True,
+                                 check=False)
+            self.assertEqual((ran.returncode, ran.stdout, ran.stderr),
+                             (2, "", f"run: TMPDIR: {folder}/tmp: no file can be made there\n"))
 
     def test_an_interrupted_run_draws_nothing(self) -> None:
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, -signal.SIGTERM)):
