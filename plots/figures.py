@@ -36,7 +36,7 @@ from words import cases_by_reason
 
 def drawings_of(rows: list[Row]) -> list[Drawing]:
     rows = comparable(rows)
-    modules = sorted(path.stem for path in Path(__file__).parent.glob("figure/*.py"))
+    modules = sorted(path.stem for path in Path(__file__).parent.glob("figure/[!.]*.py"))  # .#x.py: an editor's
     return [drawing for name in modules
             for drawing in import_module(f"figure.{name}").drawings(rows)]
 
