@@ -30,6 +30,9 @@ struct Attempt {
   std::string passed_limit;              // what to say of it
   std::optional<std::string> algorithm;  // that Gmsh had begun to mesh with
   bool is_crash() const { return end.signal != 0 && end.signal != SIGKILL; }
+  bool is_out_of_memory() const {
+    return end.exit_code == no_memory_exit_code || end.oom_killed == true;
+  }
 };
 
 void refuse_if_it_needs_confinement(const std::filesystem::path& model, bool writes_here,
@@ -133,8 +136,7 @@ int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
       attempt(model, options.limits, scratch.path(),
               [&](const AboutToMesh& begin) { work(options, begin, scratch.path()); });
   if (!first.passed_limit.empty()) return complain_of_limit(model, first);
-  if (first.end.exit_code == no_memory_exit_code)
-    return complain(model.string() + ": out of memory", exit_failure);
+  if (first.is_out_of_memory()) return complain(model.string() + ": out of memory", exit_failure);
   if (first.end.signal == 0) {
     if (first.end.exit_code == 0) take(scratch.path());
     return first.end.exit_code;
@@ -152,11 +154,10 @@ int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
       attempt(model, options.limits, other.path(),
               [&](const AboutToMesh& begin) { work(with_6, begin, other.path()); });
   if (!second.passed_limit.empty()) return complain_of_limit(model, second);
+  if (second.is_out_of_memory()) return complain(model.string() + ": out of memory", exit_failure);
   if (second.end.signal != 0)
     return complain(cause + (first.algorithm && first.algorithm != "6" ? ", and with 6" : ""),
                     exit_failure);
-  if (second.end.exit_code == no_memory_exit_code)
-    return complain(model.string() + ": out of memory", exit_failure);
   if (second.end.exit_code == 0) {
     fmt::print(stderr, "note: {}: meshed with 6\n", cause);
     take(other.path());

@@ -36,7 +36,7 @@ class MedFile {
   }
   std::vector<std::string> children(const std::string& path) const {
     if (!has(path)) return {};
-    const Handle group(H5Gopen2(file_, path.c_str(), H5P_DEFAULT), H5Gclose);
+    const Handle group(undamaged(H5Gopen2(file_, path.c_str(), H5P_DEFAULT), path), H5Gclose);
     H5G_info_t info;
     H5Gget_info(group, &info);
     std::vector<std::string> names;
@@ -55,10 +55,10 @@ class MedFile {
   }
   long attribute(const std::string& path, const char* name) const {
     long value = 0;
-    const Handle object(H5Oopen(file_, path.c_str(), H5P_DEFAULT), H5Oclose);
+    const Handle object(undamaged(H5Oopen(file_, path.c_str(), H5P_DEFAULT), path), H5Oclose);
     if (H5Aexists(object, name) <= 0) throw InputError(fmt::format("{}: no {}", path, name));
-    const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose),
-        space(H5Aget_space(attribute), H5Sclose);
+    const Handle attribute(undamaged(H5Aopen(object, name, H5P_DEFAULT), path), H5Aclose),
+        space(undamaged(H5Aget_space(attribute), path), H5Sclose);
     if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, H5T_NATIVE_LONG, &value) < 0)
       throw InputError(fmt::format("{}: {} is no whole number", path, name));
     return value;
@@ -86,19 +86,28 @@ class MedFile {
   }
 
  private:
+  static hid_t undamaged(hid_t id, const std::string& path) {
+    if (id < 0) throw InputError(fmt::format("{} is damaged, or of another kind", path));
+    return id;
+  }
   template <typename Value, typename TypeOf>
   std::vector<Value> read(const std::string& path, const TypeOf& type_of) const {
     constexpr std::size_t max_bytes = 2'000'000'000;
     if (!has(path)) throw InputError(fmt::format("there is no {}", path));
-    const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose),
-        space(H5Dget_space(set), H5Sclose), made(H5Dget_create_plist(set), H5Pclose),
-        type(type_of(set), H5Tclose);
+    const Handle set(undamaged(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), path), H5Dclose),
+        space(undamaged(H5Dget_space(set), path), H5Sclose),
+        made(undamaged(H5Dget_create_plist(set), path), H5Pclose),
+        type(undamaged(type_of(set), path), H5Tclose);
     if (H5Pget_layout(made) == H5D_VIRTUAL || H5Pget_external_count(made) > 0)
       throw InputError(fmt::format("{} is in another file", path));
     const auto count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
     const std::size_t bytes = count * H5Tget_size(type);
-    if (count > max_bytes || bytes > max_bytes || H5Dget_storage_size(set) == 0)
+    if (count > max_bytes || bytes > max_bytes)
       throw InputError(fmt::format("{}: {} values (allowed: up to 2 GB)", path, count));
+    // Of one byte deflate makes 1032 at most, and a number of 8; the rest was never written.
+    const std::size_t factor = H5Pget_nfilters(made) > 0 ? 8 * 1100 : 8;
+    if (H5Dget_storage_size(set) == 0 || H5Dget_storage_size(set) < bytes / factor)
+      throw InputError(fmt::format("{}: {} values, which are not in the file", path, count));
     std::vector<Value> values(bytes / sizeof(Value));
     if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
       throw InputError(fmt::format("{} cannot be read", path));

@@ -89,8 +89,8 @@ class FclibFile {
     if (!has(name)) return {};
     const hid_t opened = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
     if (opened < 0) return {};
-    const Handle set(opened, H5Dclose), type(H5Dget_type(set), H5Tclose);
-    const Handle space(H5Dget_space(set), H5Sclose);
+    const Handle set(opened, H5Dclose), type(undamaged(H5Dget_type(set), name), H5Tclose);
+    const Handle space(undamaged(H5Dget_space(set), name), H5Sclose);
     constexpr std::size_t max_bytes = 1000;
     const std::size_t size = H5Tget_size(type);
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size > max_bytes ||
@@ -102,10 +102,14 @@ class FclibFile {
   }
 
  private:
+  hid_t undamaged(hid_t id, const std::string& name) const {
+    if (id < 0) fail(name, "is damaged", "an HDF5 file");
+    return id;
+  }
   hssize_t values_of(const std::string& name) const {
     const hid_t opened = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
     if (opened < 0) return -1;
-    const Handle set(opened, H5Dclose), space(H5Dget_space(set), H5Sclose);
+    const Handle set(opened, H5Dclose), space(undamaged(H5Dget_space(set), name), H5Sclose);
     return H5Sget_simple_extent_npoints(space);
   }
   // Why a dataset has not all its values in this file; empty: it has. bytes: of the values.
@@ -127,7 +131,8 @@ class FclibFile {
     const hid_t opened = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
     if (opened < 0) fail(name, "is no dataset", allowed);
     const Handle set(opened, H5Dclose);
-    const Handle space(H5Dget_space(set), H5Sclose), stored(H5Dget_type(set), H5Tclose);
+    const Handle space(undamaged(H5Dget_space(set), name), H5Sclose),
+        stored(undamaged(H5Dget_type(set), name), H5Tclose);
     const hssize_t there = H5Sget_simple_extent_npoints(space);
     constexpr std::size_t max_bytes = 16;  // per number; libhdf5 accepts any
     if (H5Tget_class(stored) != kind || H5Tget_size(stored) > max_bytes)

@@ -9,6 +9,7 @@
 #include "mesh/msh_format.hpp"
 #include "meshgen/convert.hpp"
 #include "meshgen/gmsh_mesher.hpp"
+#include "support/gzip.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
@@ -150,6 +151,17 @@ TEST(ForeignModel, QuadrilateralsAreSplitInside) {
   };
   EXPECT_TRUE(has_edge(2, 4));
   EXPECT_TRUE(has_edge(2, 6));
+}
+
+TEST(ForeignModel, OfADamagedMedThePartIsNamedThatCannotBeRead) {
+  const testing::TemporaryFolder folder;
+  std::string text = unpacked_text(model("trapezium.med.gz"));
+  text.at(14187) ^= 0x55;
+  const std::filesystem::path file = testing::write_text(folder / "a.med", text);
+  EXPECT_EQ(testing::complaint_of<MeshError>([&] { convert_model(file, {}); }),
+            file.string() +
+                ": /ENS_MAA/Mesh_1/-0000000000000000001-0000000000000000001/MAI/TR3/NOD is "
+                "damaged, or of another kind");
 }
 
 TEST(ForeignModel, ACutOrDamagedGzipIsRefused) {
