@@ -16,7 +16,9 @@ import sys
 import tempfile
 import warnings
 from collections.abc import Callable, Iterable
+from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING
 
 from . import _airybench
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["Arrays", "Breakdown", "InputError", "Level", "Levels", "Method", "Problem", "Solution",
            "Timeout", "bench", "contact", "method", "methods", "read"]
 sys.modules[__name__ + ".contact"] = contact
+_drawings: dict[str, ModuleType] = {}
 
 if core := _airybench._better_blas_core():
     warnings.warn(f"OpenBLAS does not know this processor and is slow: set OPENBLAS_CORETYPE={core} "
@@ -89,12 +92,28 @@ def read(results: str | Path) -> pandas.DataFrame:
         raise InputError(str(error)) from None
 
 
-def _plots(name: str):
-    """A module of the project's drawings."""
-    folder = _airybench._data_folder("plots")
-    if folder not in sys.path:
-        sys.path.append(folder)
-    return __import__(name)
+def _plots(name: str) -> ModuleType:
+    """A module of the project's drawings.
+
+    These import one another by names that scripts have, too (records, fields): only meanwhile are
+    they found by them.
+    """
+    if name not in _drawings:
+        folder = _airybench._data_folder("plots")
+        names = {file.stem for file in Path(folder).iterdir()}
+
+        def taken() -> dict[str, ModuleType]:
+            return {key: sys.modules.pop(key) for key in list(sys.modules) if key.partition(".")[0] in names}
+        theirs = taken()
+        sys.modules.update(_drawings)
+        sys.path.insert(0, folder)
+        try:
+            import_module(name)
+        finally:
+            sys.path.remove(folder)
+            _drawings.update(taken())
+            sys.modules.update(theirs)
+    return _drawings[name]
 
 
 def _pressure(self: Solution) -> pandas.DataFrame:

@@ -7,6 +7,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 import warnings
@@ -126,6 +127,22 @@ class ProblemTest(unittest.TestCase):
                                                "shear_MPa", "gap_mm", "slip_mm", "state"])
         self.assertAlmostEqual(answer["normal_N"], s.forces[::2].sum(), 6)
         self.assertEqual(s.plot().axes[0].get_xlabel()[:5], "x, mm")
+
+    def test_modules_of_a_script_may_have_the_names_of_ours(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("command", "fields", "records"):
+                Path(folder, f"{name}.py").write_text("mine = True\n", encoding="utf-8")
+            script = """if 1:
+                import sys, records, airybench as ab
+                s = ab.Problem("Mesh0").solve()
+                print(s.plot() is not s.plot())
+                import fields
+                print(fields.mine, records.mine, "gallery" in sys.modules)
+            """
+            environment = {**os.environ, "PYTHONPATH": str(Path(ab.__file__).absolute().parents[1])}
+            said = subprocess.run([sys.executable, "-c", script], cwd=folder, env=environment, check=True,
+                                  stdout=subprocess.PIPE, text=True).stdout
+            self.assertEqual(said, "True\nTrue True False\n")
 
     def test_what_is_wrong_is_said_in_one_line(self) -> None:
         problem = ab.Problem("Mesh0")
