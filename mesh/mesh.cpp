@@ -260,6 +260,11 @@ BoundaryEdge cut_at(BoundaryEdge& edge, int vertex, double t) {
   return second;
 }
 
+Mesh with_roles(Mesh mesh, const std::vector<BoundaryRole>& roles) {
+  for (std::size_t row = 0; row < roles.size(); ++row) mesh.boundary[row].role = roles[row];
+  return mesh;
+}
+
 int boundary_group(Mesh& mesh, std::string_view name) {
   if (name.empty()) return BoundaryEdge::no_group;
   auto& names = mesh.boundary_groups;

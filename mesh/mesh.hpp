@@ -58,6 +58,9 @@ double turning_angle(const Eigen::Vector2d& in, const Eigen::Vector2d& out);
 Eigen::Vector2d point_on(const Mesh& mesh, const BoundaryEdge& edge, double t);
 BoundaryEdge cut_at(BoundaryEdge& edge, int vertex, double t);
 
+// Per row of Mesh::boundary.
+Mesh with_roles(Mesh mesh, const std::vector<BoundaryRole>& roles);
+
 // The row of a name in Mesh::boundary_groups, which is added if it is new; no_group for no name.
 int boundary_group(Mesh& mesh, std::string_view name);
 

@@ -25,6 +25,9 @@ struct EdgeState {
   Held held;
   std::optional<double> pressure_MPa;
   std::optional<Eigen::Vector2d> traction_MPa;
+  bool operator==(const EdgeState&) const = default;
+  bool is_held() const { return held[0] || held[1]; }
+  bool is_held_fully() const { return held[0] && held[1]; }
 };
 
 class SceneReader {
@@ -99,35 +102,38 @@ class SceneReader {
     return held;
   }
 
-  // The same nodes in every step. Those of no side that is held so are points.
-  void read_supports() {
-    for (const StepState& state : states_)
-      if (!std::ranges::equal(state.held, states_.front().held, [](const auto& a, const auto& b) {
-            return a.first == b.first && a.second[0].has_value() == b.second[0].has_value() &&
-                   a.second[1].has_value() == b.second[1].has_value();
-          }))
-        throw InputError("*BOUNDARY: supports differ between steps (allowed: values only)");
-    for (const auto& [node, held] : states_.front().held) {
+  // Nodes that are held, and no side of theirs so.
+  std::map<long, Held> held_alone(const StepState& state) const {
+    std::map<long, Held> alone;
+    for (const auto& [node, held] : state.held) {
       const auto edges = edges_of_.find(node);
       for (std::size_t k = 0; k < 2; ++k) {
-        const auto is_held = [&](const auto& edge) {
-          return held_on(states_.front(), edge)[k].has_value();
-        };
+        const auto is_held = [&](const auto& edge) { return held_on(state, edge)[k].has_value(); };
         if (held[k] && (edges == edges_of_.end() || std::ranges::none_of(edges->second, is_held)))
-          points_[node][k] = held[k];
+          alone[node][k] = held[k];
       }
     }
-    for (const auto& [node, held] : points_) {
-      for (const StepState& state : states_)
-        if (state.held.at(node) != states_.front().held.at(node))
-          throw InputError(fmt::format(
-              "*BOUNDARY: {} is held in this node alone, and moved differently in the steps "
-              "(allowed: the same in all)",
-              deck_.shown(node)));
+    return alone;
+  }
+
+  // Points are the same in every step; sides may be held in some.
+  void read_supports() {
+    points_ = held_alone(states_.front());
+    for (const StepState& state : states_) {
+      const std::map<long, Held> points = held_alone(state);
+      for (const auto* of : {&points, &points_})
+        for (const auto& [node, held] : *of)
+          if (!points.contains(node) || !points_.contains(node) ||
+              points.at(node) != points_.at(node))
+            throw InputError(fmt::format(
+                "*BOUNDARY: {} is held in this node alone, and moved differently in the steps "
+                "(allowed: the same in all)",
+                deck_.shown(node)));
+    }
+    for (const auto& [node, held] : points_)
       properties_.notes.push_back(
           fmt::format("*BOUNDARY: {} is held alone: it takes out a rigid motion, and no force",
                       deck_.shown(node)));
-    }
   }
 
   // Nodal forces as even tractions with the same resultant on connected sides.
@@ -231,6 +237,15 @@ class SceneReader {
     return {};
   }
 
+  void check_roller(const DeckEdge& edge, const EdgeState& state, const auto& refuse) const {
+    if (state.pressure_MPa || state.traction_MPa)
+      refuse("held in one direction, and loaded (allowed: one)");
+    const Eigen::Vector2d along = (place(edge[1]) - place(edge[0])) / length(edge);
+    if (std::abs(along[state.held[0] ? 0 : 1]) > 1e-6)
+      refuse(state.held[0] ? "x alone is held (allowed: on sides along y, or x and y)"
+                           : "y alone is held (allowed: on sides along x, or x and y)");
+  }
+
   void label_edges() {
     std::map<std::string, std::string> label_of;  // by what is prescribed in all steps
     std::set<std::string> taken;
@@ -238,11 +253,17 @@ class SceneReader {
       const DeckEdge& edge = entry.first;
       const std::string face = face_of(edge);
       std::string key;
-      const EdgeState first = state_on(0, edge);
-      bool is_loaded = false;
+      const auto refuse = [&](const char* what) {
+        throw InputError(fmt::format("the side at {}: {}", deck_.shown(edge[0]), what));
+      };
+      bool is_loaded = false, is_held = false, adds_to_reaction = false;
       for (std::size_t step = 0; step < states_.size(); ++step) {
         const EdgeState state = state_on(step, edge);
-        is_loaded |= state.pressure_MPa || state.traction_MPa;
+        const bool has_load = state.pressure_MPa || state.traction_MPa;
+        is_loaded |= has_load;
+        is_held |= state.is_held();
+        adds_to_reaction |= has_load && state.is_held();
+        if (state.is_held() && !state.is_held_fully()) check_roller(edge, state, refuse);
         if (state.pressure_MPa && state.traction_MPa)
           throw InputError(fmt::format("a pressure and *CLOAD on the side at {} (allowed: one)",
                                        deck_.shown(edge[0])));
@@ -252,33 +273,24 @@ class SceneReader {
               state.traction_MPa ? std::optional(state.traction_MPa->y()) : std::nullopt})
           key += x ? fmt::format("{} ", *x) : "- ";
       }
-      const bool is_held = first.held[0] || first.held[1], is_full = first.held[0] && first.held[1];
-      const auto refuse = [&](const char* what) {
-        throw InputError(fmt::format("the side at {}: {}", deck_.shown(edge[0]), what));
-      };
       if (!face.empty()) {
         if (is_held || is_loaded) refuse("in a contact pair, and held or loaded (allowed: one)");
         label_[edge] = "contact:" + face;
         continue;
       }
       if (!is_held && !is_loaded) continue;
-      if (is_full && is_loaded)
+      if (adds_to_reaction)
         properties_.notes.push_back(fmt::format(
             "the load on the held side at {} only adds to its reaction", deck_.shown(edge[0])));
-      if (is_held && !is_full) {
-        if (is_loaded) refuse("held in one direction, and loaded (allowed: one)");
-        const Eigen::Vector2d along = (place(edge[1]) - place(edge[0])) / length(edge);
-        if (std::abs(along[first.held[0] ? 0 : 1]) > 1e-6)
-          refuse(first.held[0] ? "x alone is held (allowed: on sides along y, or x and y)"
-                               : "y alone is held (allowed: on sides along x, or x and y)");
-      }
+      const bool is_held_first = state_on(0, edge).is_held();
       std::string& label = label_of[key];
       if (label.empty()) {
         std::string name = name_of_set(edge, is_held ? "held" : "loaded");
         if (!is_held) name = name_of_pressure(edge).value_or(name);
-        label = fmt::format("{}:{}", is_held ? "displacement" : "force", name);
+        const char* const role = is_held_first ? "displacement" : "force";
+        label = fmt::format("{}:{}", role, name);
         for (int k = 2; !taken.insert(label).second; ++k)
-          label = fmt::format("{}:{}_{}", is_held ? "displacement" : "force", name, k);
+          label = fmt::format("{}:{}_{}", role, name, k);
         example_[label] = edge;
       }
       label_[edge] = label;
@@ -310,8 +322,13 @@ class SceneReader {
   Json values(std::size_t step, const DeckEdge& edge) const {
     const EdgeState state = state_on(step, edge);
     Json values = Json::object();
-    if (state.held[0] || state.held[1]) {
+    if (state.is_held()) {
       values["displacement_mm"] = {state.held[0].value_or(0), state.held[1].value_or(0)};
+      const auto has_changed = [&](const EdgeState& before) {
+        return !before.is_held() || before.is_held_fully() != state.is_held_fully();
+      };
+      if (step == 0 || has_changed(state_on(step - 1, edge)))
+        values["support"] = state.is_held_fully() ? "full" : "normal";
     } else if (state.traction_MPa) {
       values["traction_MPa"] = {state.traction_MPa->x(), state.traction_MPa->y()};
     } else {
@@ -364,8 +381,6 @@ class SceneReader {
     scene["body_force_N_per_mm3"] = body_force(0);
     for (const auto& [label, edge] : example_) {
       boundary[label] = values(0, edge);
-      const Held held = held_on(states_[0], edge);
-      if (held[0] || held[1]) boundary[label]["support"] = held[0] && held[1] ? "full" : "normal";
     }
     if (!boundary.empty()) scene["boundary"] = boundary;
     if (!points_.empty()) scene["point_supports"] = points();
@@ -380,8 +395,8 @@ class SceneReader {
     for (std::size_t step = 1; step < states_.size(); ++step) {
       Json change = Json::object();
       for (const auto& [label, edge] : example_)
-        if (const Json now = values(step, edge); now != values(step - 1, edge))
-          change["boundary"][label] = now;
+        if (state_on(step, edge) != state_on(step - 1, edge))
+          change["boundary"][label] = values(step, edge);
       if (const Json now = body_force(step); now != body_force(step - 1))
         change["body_force_N_per_mm3"] = now;
       scene["load_steps"].push_back(change);

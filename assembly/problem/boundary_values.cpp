@@ -21,7 +21,21 @@ bool acts(const std::optional<LinearValue<Value>>& given) {
   return given && !(is_zero(given->values[0]) && is_zero(given->values[1]));
 }
 
-void check_role(const std::string& label, BoundaryRole role, const BoundaryValues& given) {
+bool is_loaded(const BoundaryValues& given) { return given.traction_MPa || given.pressure_MPa; }
+
+// In a load step held and loaded edges may change places.
+void check_role(const std::string& label, BoundaryRole role, const BoundaryValues& given,
+                bool in_step) {
+  if (in_step && role != BoundaryRole::contact) {
+    if (given.displacement_mm && is_loaded(given))
+      throw TransformError(label + ": displacement_mm and " +
+                           (given.traction_MPa ? "traction_MPa" : "pressure_MPa") +
+                           " (allowed: either, to hold the group or to load it)");
+    if (given.support && !given.displacement_mm)
+      throw TransformError(label + ": support (allowed: with displacement_mm)");
+    if (given.displacement_mm) role = BoundaryRole::displacement;
+    if (is_loaded(given)) role = BoundaryRole::force;
+  }
   const auto only = [&](BoundaryRole of, const char* key, bool is_given) {
     if (!is_given || role == of) return;
     const std::string_view name = boundary_role_names[static_cast<std::size_t>(of)];
@@ -64,7 +78,8 @@ void check_held(const PieceSupport& support) {
 
 // u0 may not jump where displacement edges meet: no field has such a jump and finite energy.
 // Rollers prescribe u_n alone, and rollers that are not parallel agree with any values.
-void check_agreement(const Mesh& mesh, const std::vector<BoundaryValues>& of_row) {
+void check_agreement(const Mesh& mesh, const std::vector<std::string>& labels,
+                     const std::vector<BoundaryValues>& of_row) {
   constexpr double rounding = 1e-9;
   std::map<int, std::size_t> row_at;  // vertex -> the first displacement edge there
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
@@ -88,8 +103,7 @@ void check_agreement(const Mesh& mesh, const std::vector<BoundaryValues>& of_row
       const Eigen::Vector2d& free = rolls_along[0].isZero(0) ? rolls_along[1] : rolls_along[0];
       jump -= jump.dot(free) * free;
       if (jump.norm() <= rounding * std::max(u[0].norm(), u[1].norm())) continue;
-      throw TransformError(boundary_label(mesh, mesh.boundary[rows[0]]) + " and " +
-                           boundary_label(mesh, mesh.boundary[rows[1]]) +
+      throw TransformError(labels[rows[0]] + " and " + labels[rows[1]] +
                            ": displacement_mm: " + shown(u[0]) + " and " + shown(u[1]) +
                            " at their common vertex " + shown(mesh.vertices[vertex]) +
                            " (allowed: equal, of rollers along their normal)");
@@ -115,15 +129,37 @@ void check(const std::string& key, const std::optional<LinearValue<Value>>& give
 template void check(const std::string&, const std::optional<LinearValue<double>>&,
                     const Magnitude&);
 
-void check_values(const BoundaryConditions& conditions) {
+static void check_values(const BoundaryConditions& conditions, bool in_step) {
   for (const auto& [label, given] : conditions) {
     check(label + ": traction_MPa", given.traction_MPa, stress_magnitude);
     check(label + ": pressure_MPa", given.pressure_MPa, stress_magnitude);
     check(label + ": displacement_mm", given.displacement_mm, length_magnitude);
     check(label, given.contact);
     // check_labels() refuses other labels: they name no group of a mesh.
-    if (const auto known = parse_boundary_label(label)) check_role(label, known->role, given);
+    if (const auto known = parse_boundary_label(label))
+      check_role(label, known->role, given, in_step);
   }
+}
+
+void check_values(const BoundaryConditions& conditions) { check_values(conditions, false); }
+void check_values_of_step(const BoundaryConditions& conditions) { check_values(conditions, true); }
+
+BoundaryRole role_under(BoundaryRole of_mesh, const BoundaryValues& given) {
+  if (of_mesh == BoundaryRole::displacement && is_loaded(given)) return BoundaryRole::force;
+  if (of_mesh == BoundaryRole::force && given.displacement_mm) return BoundaryRole::displacement;
+  return of_mesh;
+}
+
+std::vector<BoundaryRole> roles_under(const BoundaryConditions& conditions, const Mesh& mesh) {
+  std::vector<BoundaryRole> roles;
+  bool differ = false;
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    const auto given = conditions.find(boundary_label(mesh, edge));
+    roles.push_back(given == conditions.end() ? edge.role : role_under(edge.role, given->second));
+    differ |= roles.back() != edge.role;
+  }
+  if (!differ) roles.clear();
+  return roles;
 }
 
 void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
@@ -137,23 +173,29 @@ void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
 }
 
 void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displacement_mm,
-           const Mesh& mesh, Loads& loads) {
+           const Mesh& given_mesh, Loads& loads) {
+  std::vector<std::string> labels;
+  for (const BoundaryEdge& edge : given_mesh.boundary)
+    labels.push_back(boundary_label(given_mesh, edge));
+  loads.roles = roles_under(conditions, given_mesh);
+  const Mesh changed = loads.roles.empty() ? Mesh() : with_roles(given_mesh, loads.roles);
+  const Mesh& mesh = loads.roles.empty() ? given_mesh : changed;
   auto of_row = std::make_shared<std::vector<BoundaryValues>>(mesh.boundary.size());
   const LinearValue<Eigen::Vector2d> everywhere{{displacement_mm, displacement_mm}};
   bool moved = false, pulled = false, rolling = false;
   std::vector<bool> rollers(mesh.boundary.size(), false);
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
     BoundaryValues& own = (*of_row)[row];
-    const auto given = conditions.find(boundary_label(mesh, mesh.boundary[row]));
+    const auto given = conditions.find(labels[row]);
     if (given != conditions.end()) own = given->second;
-    if (mesh.boundary[row].role == BoundaryRole::displacement && !own.displacement_mm)
-      own.displacement_mm = everywhere;
+    const bool is_held = mesh.boundary[row].role == BoundaryRole::displacement;
+    if (is_held && !own.displacement_mm) own.displacement_mm = everywhere;
     moved |= acts(own.displacement_mm);
     pulled |= acts(own.traction_MPa) || acts(own.pressure_MPa);
-    rollers[row] = own.support == BoundaryValues::Support::normal;
+    rollers[row] = is_held && own.support == BoundaryValues::Support::normal;
     rolling |= rollers[row];
   }
-  check_agreement(mesh, *of_row);
+  check_agreement(mesh, labels, *of_row);
   if (moved)
     loads.displacement_mm = [of_row](const Eigen::Vector2d& x, int row) {
       return (*of_row)[static_cast<std::size_t>(row)].displacement_mm->at(x);

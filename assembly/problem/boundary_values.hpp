@@ -50,6 +50,14 @@ using BoundaryConditions = std::map<std::string, BoundaryValues>;
 // Refuses what is impossible on any mesh: non-finite numbers, two equal points, a key that the
 // label's role does not have, traction and pressure together.
 void check_values(const BoundaryConditions& conditions);
+// The same of a load step, which may load a group that was held, and hold one that was loaded.
+void check_values_of_step(const BoundaryConditions& conditions);
+
+// Of a group that the mesh has in this role: force where the values load it, displacement where
+// they hold it.
+BoundaryRole role_under(BoundaryRole of_mesh, const BoundaryValues& given);
+// Per row of Mesh::boundary; empty: as the mesh has them.
+std::vector<BoundaryRole> roles_under(const BoundaryConditions& conditions, const Mesh& mesh);
 
 // Refuses what is impossible of one value, by its key.
 template <typename Value>
@@ -59,7 +67,7 @@ void check(const std::string& key, const std::optional<LinearValue<Value>>& give
 // Refuses groups that the mesh lacks.
 void check_labels(const BoundaryConditions& conditions, const Mesh& mesh);
 
-// Sets u0, f and rollers of `loads`, which has its point supports. displacement_mm: for
+// Sets roles, u0, f and rollers of `loads`, which has its point supports. displacement_mm: for
 // displacement edges without a value. Refuses supports of a piece without contact edges that leave
 // a rigid motion free, and displacements that jump where two displacement edges meet.
 void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displacement_mm,

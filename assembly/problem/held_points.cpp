@@ -80,12 +80,13 @@ void check_point_supports(const Scene& scene, const Mesh& mesh) {
   }
 }
 
-void check_point_supports(const Scene& scene, const Problem& problem) {
+void check_point_supports(const Scene& scene, const std::string& prefix, const Problem& problem) {
+  const std::string key = prefix + key_of_points;
   const HeldPoints held = held_points(problem);
   const Eigen::MatrixXd& B = held.of_motions;
   for (Eigen::Index row = 0; row < B.rows(); ++row)
     if (!are_independent(B.topRows(row + 1)))
-      fail(scene, key_of_points, shown(held.rows[row].at_mm),
+      fail(scene, key, shown(held.rows[row].at_mm),
            std::string("holds ") + (held.rows[row].component == 0 ? "x" : "y") +
                ", which displacement edges or other points hold: it would carry a force, and the "
                "stress of a force in a point is infinite (allowed: points that take out a rigid "
@@ -95,7 +96,7 @@ void check_point_supports(const Scene& scene, const Problem& problem) {
     const int piece = motions[first].piece;
     count = std::ranges::count(motions, piece, &FreeMotion::piece);
     if (!has_contact(problem, piece) && rank(B.middleCols(first, count)) < count)
-      fail(scene, key_of_points, name_of_piece(problem.mesh, problem.free.piece_of_vertex, piece),
+      fail(scene, key, name_of_piece(problem.mesh, problem.free.piece_of_vertex, piece),
            "is free to " + std::string(count == 1 ? "move along its rollers" : "move or turn") +
                " (allowed: as many components as hold it, " +
                (count == 1 ? "one" : "three in two points") + ")");

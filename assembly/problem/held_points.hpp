@@ -28,6 +28,6 @@ bool are_independent(const Eigen::MatrixXd& rows);
 void check_point_supports(const Scene& scene, const Mesh& mesh);
 // Refuses points that hold what displacement edges or other points hold, and bodies without contact
 // edges that points leave free to move.
-void check_point_supports(const Scene& scene, const Problem& problem);
+void check_point_supports(const Scene& scene, const std::string& prefix, const Problem& problem);
 
 }  // namespace airybench

@@ -131,29 +131,30 @@ void check_pieces(const Scene& scene, const ReachableContact& contact) {
        "Coherence or BooleanFragments joins surfaces that touch)");
 }
 
-void check_is_held(const Scene& scene, const Mesh& mesh) {
+// prefix: of the load step, here and below.
+void check_is_held(const Scene& scene, const std::string& prefix, const Mesh& mesh) {
   if (scene.point_supports.empty() &&
       std::ranges::all_of(
           mesh.boundary, [](const BoundaryEdge& edge) { return edge.role == BoundaryRole::force; }))
-    fail(scene, "mesh " + mesh.name, "no displacement and no contact edge",
+    fail(scene, prefix + "mesh " + mesh.name, "no displacement and no contact edge",
          "(allowed: one at least, or point_supports where loads balance)");
 }
 
 // Pins need force edges (free_motions.hpp).
-void check_pins(const Scene& scene, const Problem& problem) {
+void check_pins(const Scene& scene, const std::string& prefix, const Problem& problem) {
   const auto& [motions, pins, piece_of_vertex, amounts] = problem.free;
   const auto piece_of = [&](const Pin& pin) {
     return problem.free.piece_of_vertex[problem.mesh.boundary[pin.row].vertices[0]];
   };
   for (const FreeMotion& motion : motions)
     if (std::ranges::count(pins, motion.piece, piece_of) == 0)
-      fail(scene, "mesh " + problem.mesh.name,
+      fail(scene, prefix + "mesh " + problem.mesh.name,
            name_of_piece(problem.mesh, piece_of_vertex, motion.piece),
            "has neither two force edges nor displacement edges (allowed: either)");
 }
 
 // Displacement methods have one direction at a node: along the roller, and of the contact law.
-void check_rollers_at_pairs(const Scene& scene, const Problem& problem) {
+void check_rollers_at_pairs(const Scene& scene, const std::string& prefix, const Problem& problem) {
   const Mesh& mesh = problem.mesh;
   if (problem.opposite.empty() || problem.loads.rollers.empty()) return;
   constexpr double right_angle = 1e-4;  // cosine, of faces with rounded coordinates
@@ -170,27 +171,43 @@ void check_rollers_at_pairs(const Scene& scene, const Problem& problem) {
         const auto found = roller.find(v);
         if (found != roller.end() &&
             std::abs(found->second.dot(problem.frame_at(row, end, 1).normal)) > right_angle)
-          fail(scene, "contacts", "at the vertex " + shown(mesh.vertices[v]),
+          fail(scene, prefix + "contacts", "at the vertex " + shown(mesh.vertices[v]),
                "a roller meets the face obliquely (allowed: at a right angle)");
       }
 }
 
+void check_supports(const Scene& scene, const std::string& prefix, const Problem& problem) {
+  check_is_held(scene, prefix, problem.mesh);
+  check_rollers_at_pairs(scene, prefix, problem);
+  check_pins(scene, prefix, problem);
+  check_point_supports(scene, prefix, problem);
+}
+
 // Squares of forces and energies must be numbers that a double can be.
-void check_scale(const Scene& scene, Problem& problem) {
-  const auto check = [&] {
-    const LoadScale scale = load_scale(problem);
-    for (const double size : {scale.energy_norm, scale.force_N})
-      if (size != 0 && !(size >= 1e-100 && size <= 1e100)) {
-        std::ostringstream forces;
-        forces << "forces of about " << scale.force_N << " N";
-        fail(scene, "loads", forces.str(), "(allowed: none, or 1e-100 to 1e100 N)");
-      }
-  };
-  check();
-  for (Loads& step : problem.later_steps) {
-    std::swap(problem.loads, step);
-    check();
-    std::swap(problem.loads, step);
+void check_scale(const Scene& scene, const Problem& problem) {
+  const LoadScale scale = load_scale(problem);
+  for (const double size : {scale.energy_norm, scale.force_N})
+    if (size != 0 && !(size >= 1e-100 && size <= 1e100)) {
+      std::ostringstream forces;
+      forces << "forces of about " << scale.force_N << " N";
+      fail(scene, "loads", forces.str(), "(allowed: none, or 1e-100 to 1e100 N)");
+    }
+}
+
+void check_every_step(const Scene& scene, Problem& problem) {
+  check_supports(scene, "", problem);
+  check_scale(scene, problem);
+  for (std::size_t k = 0; k < problem.later_steps.size(); ++k) {
+    Loads& step = problem.later_steps[k];
+    if (same_supports(problem, problem.loads, step)) {
+      std::swap(problem.loads, step);
+      check_scale(scene, problem);
+      std::swap(problem.loads, step);
+    } else {
+      const Problem of_step = with_loads(problem, step);
+      check_supports(scene, step_prefix(k), of_step);
+      check_scale(scene, of_step);
+    }
   }
 }
 
@@ -202,11 +219,12 @@ void change(Scene& scene, const LoadStep& step) {
     scene.temperature_K[body] = temperature;
   for (const auto& [label, values] : step.boundary) {
     BoundaryValues& own = scene.boundary[label];
-    if (values.traction_MPa || values.pressure_MPa) {
+    if (values.traction_MPa || values.pressure_MPa || values.displacement_mm) {
       own.traction_MPa = values.traction_MPa;
       own.pressure_MPa = values.pressure_MPa;
+      own.displacement_mm = values.displacement_mm;
     }
-    if (values.displacement_mm) own.displacement_mm = values.displacement_mm;
+    if (values.support) own.support = values.support;
     if (values.contact.clearance_mm) own.contact.clearance_mm = values.contact.clearance_mm;
   }
   for (const ContactPair& pair : step.contacts)
@@ -324,7 +342,7 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   Mesh& mesh = contact.mesh;
   check_geometry(scene, mesh, faces_at_walls(scene, contact));
   check_pieces(scene, contact);
-  check_is_held(scene, mesh);
+  check_is_held(scene, "", mesh);
   check_point_supports(scene, mesh);
 
   std::vector<Loads> steps = loads_of_steps(scene, contact);
@@ -346,12 +364,9 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   problem.opposite = std::move(opposite);
   problem.matching = contact.changes;
   find_round_sides(problem);
-  check_rollers_at_pairs(scene, problem);
-  check_pins(scene, problem);
-  check_point_supports(scene, problem);
   problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),
                              std::make_move_iterator(steps.end()));
-  check_scale(scene, problem);
+  check_every_step(scene, problem);
   return problem;
 }
 

@@ -197,6 +197,8 @@ EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
 
 void find_round_sides(Problem& problem) {
   const Mesh& mesh = problem.mesh;
+  for (std::size_t row = 0; row < problem.curve_normals.size(); ++row)  // of rollers before
+    if (mesh.boundary[row].role != BoundaryRole::contact) problem.curve_normals[row] = {};
   problem.round.clear();
   problem.round_rows.clear();
   if (std::ranges::all_of(mesh.boundary,
@@ -302,9 +304,39 @@ Problem with_loads(const Problem& problem, Loads loads) {
                  .round = problem.round,
                  .round_rows = problem.round_rows,
                  .central_vertices = problem.central_vertices};
+  if (!result.loads.roles.empty())
+    result.mesh = with_roles(std::move(result.mesh), result.loads.roles);
   result.free.amounts_mm.resize(0);
   take_out_rigid_motion(result);
+  if (same_supports(problem, problem.loads, result.loads)) return result;
+  result.free =
+      free_motions(result.mesh, result.loads.rollers, result.loads.points, pieces_of(result.mesh));
+  if (!problem.round.empty()) find_round_sides(result);  // else chords
   return result;
+}
+
+bool same_supports(const Problem& first, const Loads& a, const Loads& b) {
+  for (std::size_t row = 0; row < first.mesh.boundary.size(); ++row) {
+    const auto support = [&](const Loads& loads) {
+      return std::pair(loads.roles.empty() ? first.mesh.boundary[row].role : loads.roles[row],
+                       !loads.rollers.empty() && loads.rollers[row]);
+    };
+    if (support(a) != support(b)) return false;
+  }
+  return true;
+}
+
+Problem problem_of_step(const Problem& first, int step) {
+  return step == 0 ? first
+                   : with_loads(first, first.later_steps[static_cast<std::size_t>(step) - 1]);
+}
+
+bool has_free_motions(const Problem& first) {
+  return !first.free.motions.empty() ||
+         std::ranges::any_of(first.later_steps, [&](const Loads& loads) {
+           return !same_supports(first, first.loads, loads) &&
+                  !with_loads(first, loads).free.motions.empty();
+         });
 }
 
 Problem with_free_motion(Problem problem, Eigen::VectorXd amounts_mm) {

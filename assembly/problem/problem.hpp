@@ -43,6 +43,9 @@ namespace airybench {
 // Boundary data at x on an edge of Mesh::boundary, and body force. An empty function is zero and
 // costs nothing.
 struct Loads {
+  // Per row of Mesh::boundary, where a load step has others than the mesh: edges of Γ_D that become
+  // Γ_F, or the other way; empty: the mesh's.
+  std::vector<BoundaryRole> roles;
   std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int boundary_row)>
       displacement_mm;  // u0 on Γ_D; in a Problem without ρ
   std::function<Eigen::Vector2d(const Eigen::Vector2d& x, const Eigen::Vector2d& normal,
@@ -171,7 +174,7 @@ struct Problem {
   std::vector<RoundTriangle> round = {};
   std::vector<int> round_rows = {};
   // Load steps after this one, with the whole u0. Slip is measured from the previous step, so they
-  // are posed one by one (load_steps.hpp).
+  // are posed one by one (load_steps.hpp). Supports may change: `mesh` has the first step's.
   std::vector<Loads> later_steps = {};
   // Per piece of the mesh, nearest to its centroid: origin of φ; the first, of the particular
   // stress.
@@ -302,8 +305,15 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
 Problem with_chords(Problem problem);
 // For a problem with the whole u0.
 SplitDisplacement split_rigid_motion(const Problem& problem);
-// The same body under other loads with the whole u0; without later steps and known free motions.
+// The same body under other loads with the whole u0, supported as these say; without later steps
+// and known free motions.
 Problem with_loads(const Problem& problem, Loads loads);
+// Whether the same edges are held in both load steps, and the same roll.
+bool same_supports(const Problem& first, const Loads& a, const Loads& b);
+// Of a problem with later steps, from 0; without the slip of those before.
+Problem problem_of_step(const Problem& first, int step);
+// Whether in some step contact or points alone hold a piece.
+bool has_free_motions(const Problem& first);
 // Free pieces moved by these amounts.
 Problem with_free_motion(Problem problem, Eigen::VectorXd amounts_mm);
 

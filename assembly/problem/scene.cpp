@@ -24,11 +24,9 @@ void check_friction(const Scene& scene, const std::string& key, double friction)
     fail(scene, key, friction, "(allowed: 0 to 1e6)");
 }
 
-void check_loads(const Scene& scene, const std::string& prefix, const BoundaryConditions& boundary,
-                 const Temperatures& temperature_K, double clearance_mm,
-                 const Eigen::Vector2d& displacement_mm,
+void check_loads(const Scene& scene, const std::string& prefix, const Temperatures& temperature_K,
+                 double clearance_mm, const Eigen::Vector2d& displacement_mm,
                  const Eigen::Vector2d& body_force_N_per_mm3) {
-  of_scene(scene, prefix + "boundary", [&] { check_values(boundary); });
   for (const auto& of_body : temperature_K)
     of_scene(scene, prefix + "temperature_K",
              [&] { check(of_body.first, std::optional(of_body.second), temperature_magnitude); });
@@ -49,7 +47,8 @@ void check_clearance(const Scene& scene, const std::string& prefix, const Contac
 void check_contacts(const Scene& scene) {
   for (const ContactPair& pair : scene.contacts) {
     if (pair.is_bonded() && (pair.friction || pair.clearance_mm))
-      fail(scene, "contacts", names_of(pair), "bonded (allowed: without friction, clearance_mm)");
+      fail(scene, "contacts", names_of(pair),
+           "bonded (allowed: without friction, clearance_mm; an interference is a temperature)");
     if (pair.friction) check_friction(scene, "contacts: friction", *pair.friction);
     check_clearance(scene, "", pair);
   }
@@ -95,21 +94,21 @@ void check_steps(const Scene& scene) {
     fail(scene, "load_steps", scene.equal_steps, "and a list (allowed: one of them)");
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
     const LoadStep& step = scene.later_steps[k];
-    check_loads(scene, step_prefix(k), step.boundary, step.temperature_K,
-                step.clearance_mm.value_or(0),
+    of_scene(scene, step_prefix(k) + "boundary", [&] { check_values_of_step(step.boundary); });
+    check_loads(scene, step_prefix(k), step.temperature_K, step.clearance_mm.value_or(0),
                 step.displacement_mm.value_or(Eigen::Vector2d::Zero()),
                 step.body_force_N_per_mm3.value_or(Eigen::Vector2d::Zero()));
     for (const auto& [label, values] : step.boundary) {
       if (values.contact.clearance_mm && is_paired(scene, label))
         fail(scene, step_prefix(k) + "boundary: " + label, "clearance_mm",
              "of a group in contacts (allowed: clearance_mm of the pair, in contacts)");
-      for (const auto& [key, is_given] : {std::pair("support", values.support.has_value()),
-                                          {"friction", values.contact.friction.has_value()},
-                                          {"wall", values.contact.wall.has_value()},
-                                          {"face", values.contact.face.has_value()}})
+      for (const auto& [key, is_given] :
+           {std::pair("friction", values.contact.friction.has_value()),
+            {"wall", values.contact.wall.has_value()},
+            {"face", values.contact.face.has_value()}})
         if (is_given)
           fail(scene, step_prefix(k) + "boundary: " + label, key,
-               "(allowed: traction_MPa, pressure_MPa, displacement_mm, clearance_mm)");
+               "(allowed: traction_MPa, pressure_MPa, displacement_mm, support, clearance_mm)");
     }
     check_contacts_of_step(scene, k);
   }
@@ -149,8 +148,9 @@ void check_values(const Scene& scene) {
           point.displacement_mm[1].value_or(0)})
       if (!std::isfinite(number))
         fail(scene, "point_supports", number, "(allowed: finite numbers)");
-  check_loads(scene, "", scene.boundary, scene.temperature_K, scene.clearance_mm,
-              scene.displacement_mm, scene.body_force_N_per_mm3);
+  of_scene(scene, "boundary", [&] { check_values(scene.boundary); });
+  check_loads(scene, "", scene.temperature_K, scene.clearance_mm, scene.displacement_mm,
+              scene.body_force_N_per_mm3);
   check_steps(scene);
 }
 

@@ -45,7 +45,7 @@ struct LoadStep {
   std::optional<Eigen::Vector2d> displacement_mm, body_force_N_per_mm3;
   std::optional<double> clearance_mm;
   Temperatures temperature_K = {};         // of these bodies
-  BoundaryConditions boundary;             // of these groups; supports stay
+  BoundaryConditions boundary;             // of these groups, which may be held or loaded now
   std::vector<ContactPair> contacts = {};  // pairs of the scene with another clearance
 };
 

@@ -148,7 +148,8 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
         "judged by its total error alone: its elements are not the quadratic ones of the mesh");
   if (is_ok()) verdict.add(remark_on_polygons(method, result.polygons, result.of_mesh.total));
   if (is_ok() && halves != nullptr && !method.in_displacements())
-    for (const std::string& remark : remarks_on_half_steps(step_results(result.steps), *halves))
+    for (const std::string& remark :
+         remarks_on_half_steps(step_results(result.steps), *halves, changes_of_supports(*problem_)))
       verdict.add(remark);
   return verdict;
 }

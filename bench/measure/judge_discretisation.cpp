@@ -123,6 +123,7 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   DisplacementField& u = found.u;
   result.by = bound == Bound::displacement ? displacements_of_degree(degree + 1) : "recovery";
   std::optional<ResultantLifts> lifts;
+  std::shared_ptr<const Problem> lifted;
   ContactSystem system = contact_system(problem_, of_stresses);
   solve_load_steps(
       solve, system, {}, [&](int step, const ContactSystem& posed, const Solution& own) {
@@ -144,7 +145,10 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
         result.of_steps.push_back(bounds(error));
         result.intervals.reset();
         if (bound == Bound::displacement || !error.flaw.empty() || !wants_intervals(degree)) return;
-        if (!lifts) lifts = resultant_lifts(*problem_, degree);
+        if (!lifts || !same_supports(*problem_, lifted->loads, posed.problem->loads)) {
+          lifted = posed.problem;
+          lifts = resultant_lifts(*lifted, degree);
+        }
         result.intervals = contact_intervals(posed, own.stress, own.F_C, u, error, *lifts);
         if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());
       });

@@ -173,6 +173,16 @@ std::vector<StepResult> step_results(const std::vector<JudgedStep>& steps) {
   return list;
 }
 
+int changes_of_supports(const Problem& first) {
+  int changes = 0;
+  const Loads* before = &first.loads;
+  for (const Loads& step : first.later_steps) {
+    changes += same_supports(first, *before, step) ? 0 : 1;
+    before = &step;
+  }
+  return changes;
+}
+
 std::vector<StepResult> steps_in_halves(const Problem& first, int degree) {
   std::vector<JudgedStep> steps;
   Status first_half = Status::ok;

@@ -55,6 +55,9 @@ std::size_t worst_step(const std::vector<JudgedStep>& steps);
 
 std::vector<StepResult> step_results(const std::vector<JudgedStep>& steps);
 
+// How many steps support the body otherwise than the one before: these are not halved.
+int changes_of_supports(const Problem& first);
+
 // The same for HYBRID with each step in two halves, if both have an answer; dissipation adds up.
 std::vector<StepResult> steps_in_halves(const Problem& first, int degree = 1);
 

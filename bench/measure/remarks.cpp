@@ -91,7 +91,8 @@ std::string words_of_least_gap(const Problem& problem) {
   return fmt::format("; the least gap, before anything deforms, is {:.3g} mm", min_mm);
 }
 
-std::vector<std::string> remarks_on_what_is_idle(const Problem& problem, const Verification& v) {
+std::vector<std::string> remarks_on_what_is_idle(const Problem& first, const Verification& v) {
+  const Problem problem = problem_of_step(first, static_cast<int>(first.later_steps.size()));
   std::vector<std::string> remarks;
   const MeshSizes sizes = mesh_sizes(problem.mesh);
   if (sizes.contact_edges + sizes.force_edges == 0) {
@@ -101,7 +102,7 @@ std::vector<std::string> remarks_on_what_is_idle(const Problem& problem, const V
   } else if (const int points = v.n_open.value_or(0);
              points > 0 && v.n_stick.value_or(0) + v.n_slip.value_or(0) == 0) {
     remarks.push_back(fmt::format("nothing touches the {}: all {} contact points are open{}",
-                                  obstacle_of(problem), points, words_of_least_gap(problem)));
+                                  obstacle_of(problem), points, words_of_least_gap(first)));
   }
   if (!problem.free.motions.empty())
     remarks.push_back(words_of_open_motions(rigid_contact(problem)));
@@ -109,7 +110,7 @@ std::vector<std::string> remarks_on_what_is_idle(const Problem& problem, const V
 }
 
 std::vector<std::string> remarks_on_half_steps(const std::vector<StepResult>& steps,
-                                               const std::vector<StepResult>& halves) {
+                                               const std::vector<StepResult>& halves, int whole) {
   const bool all_ok = std::ranges::all_of(
       halves, [](const StepResult& step) { return step.claimed_status == Status::ok; });
   if (halves.size() != steps.size() || !all_ok)
@@ -117,6 +118,9 @@ std::vector<std::string> remarks_on_half_steps(const std::vector<StepResult>& st
   std::vector<std::string> remarks = {remark_on_dissipation(steps, halves)};
   const std::vector<StepChange> changes = changes_in_halves(steps, halves);
   const auto differs = std::ranges::count_if(changes, &StepChange::is_seen);
+  if (whole > 0 && (differs > 0 || !remarks.front().empty()))
+    remarks.push_back(fmt::format(
+        "{} of the steps, with other supports than the one before, were not halved", whole));
   if (differs == 0) return remarks;
   const auto worst = std::ranges::max_element(changes, {}, [](const StepChange& change) {
     return std::pair(change.points, change.of_force);

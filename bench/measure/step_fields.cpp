@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 
 constexpr auto series_ends = {".pvd", ".contact.pvd", ".steps.csv"};
 
-using LoadsOfSteps = std::array<Eigen::MatrixXd, 4>;
+using LoadsOfSteps = std::array<Eigen::MatrixXd, 5>;
 
 // A column per step: displacements of Γ_D, of rollers their normal part, tractions of Γ_F, gaps of
-// Γ_C, at the ends of their edges, and the body force.
+// Γ_C, at the ends of their edges, the body force, and which edges are Γ_D.
 LoadsOfSteps loads_of_steps(const Problem& first) {
   const Mesh& mesh = first.mesh;
   LoadsOfSteps all;
@@ -29,9 +29,10 @@ LoadsOfSteps loads_of_steps(const Problem& first) {
   for (Eigen::MatrixXd& kind : all) kind.setZero(ends, count_of_steps(first));
   const auto take = [&](const Loads& loads, const RigidMotion& motion, int step) {
     all[3].col(step).head<2>() = loads.body_force_N_per_mm3;
+    const auto rolls = [&](int row) { return !loads.rollers.empty() && loads.rollers[row]; };
     for (Eigen::Index at = 0; at < ends; at += 2) {
       const int row = static_cast<int>(at / 4);
-      const BoundaryRole role = mesh.boundary[row].role;
+      const BoundaryRole role = loads.roles.empty() ? mesh.boundary[row].role : loads.roles[row];
       const auto [start, end] = mesh.boundary[row].vertices;
       const Eigen::Vector2d &a = mesh.vertices[start], &b = mesh.vertices[end];
       const Eigen::Vector2d& x = at % 4 == 0 ? a : b;
@@ -39,7 +40,8 @@ LoadsOfSteps loads_of_steps(const Problem& first) {
         Eigen::Vector2d u = motion.at(x);
         if (loads.displacement_mm) u += loads.displacement_mm(x, row);
         const Eigen::Vector2d normal = edge_frame(a, b).normal;
-        all[0].col(step).segment<2>(at) = first.is_roller(row) ? normal.dot(u) * normal : u;
+        all[0].col(step).segment<2>(at) = rolls(row) ? normal.dot(u) * normal : u;
+        all[4].col(step).segment<2>(at).setConstant(rolls(row) ? 1 : 2);
       } else if (role == BoundaryRole::force && loads.traction_MPa) {
         all[1].col(step).segment<2>(at) = loads.traction_MPa(x, edge_frame(a, b).normal, row);
       } else if (role == BoundaryRole::contact && loads.gap_mm) {

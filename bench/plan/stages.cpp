@@ -42,7 +42,7 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
   if (!body->opposite.empty() && !method.joins_bodies)
     return external ? "bodies in contact with each other: its declaration does not say joins_bodies"
                     : "bodies in contact with each other: its active sets hold edges at walls only";
-  if (!body->free.motions.empty() && (external || !method.condenses_contact()))
+  if (has_free_motions(*body) && (external || !method.condenses_contact()))
     return "a body that contact or points alone hold: its motion is found by methods of ours that "
            "condense on the contact points";
   if (method.unknowns == Unknowns::displacements && !body->opposite.empty())

@@ -9,6 +9,7 @@
 #include <Eigen/LU>
 
 #include "assembly/control_points.hpp"
+#include "assembly/curved_traces.hpp"
 #include "assembly/elements/bernstein.hpp"
 #include "solvers/base/kept_body.hpp"
 #include "solvers/contact/coulomb_law.hpp"
@@ -30,18 +31,29 @@ void add_of_contact_points(const ContactPoints& contact, const Eigen::VectorXd& 
   }
 }
 
-// Coefficients of nodes; where a node has no law, it does not slip.
+// Coefficients of nodes. A node that is held has no law, and slips as its displacement w says; not
+// on one across that has: there all of the pair's slip is the other's.
 void add_of_control_points(const Problem& problem, const ControlPoints& points,
-                           const Eigen::VectorXd& slip, Eigen::MatrixXd& slid) {
+                           const Eigen::VectorXd& slip, const DisplacementField& w,
+                           Eigen::MatrixXd& slid) {
   std::map<int, double> of_node;
   for (int p = 0; p < points.law.count; ++p) of_node[points.node[p]] = slip(2 * p + 1);
   with_degree(static_cast<int>(slid.rows()) - 2, [&](auto k) {
+    constexpr int p = k + 1;
+    const CurvedTraces traces(problem, p);
+    const DisplacementField d = traces.traces(w);
     for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
       if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
-      const std::array<int, k + 2> nodes = boundary_nodes<k + 1>(problem, row);
-      for (int i = 0; i <= k + 1; ++i)
+      const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+      const std::array<ContactOffset, p + 1> offsets = traces.offsets<p>(row);
+      const int other = problem.opposite_of(row);
+      for (int i = 0; i <= p; ++i) {
         if (const auto found = of_node.find(nodes[i]); found != of_node.end())
           slid(i, row) += found->second;
+        else if (other == Problem::no_row ||
+                 !of_node.contains(boundary_nodes<p>(problem, other)[p - i]))
+          slid(i, row) = traces.frame(row, i).tangent.dot(d.col(nodes[i]) + offsets[i].motion_mm);
+      }
     }
   });
 }
@@ -103,7 +115,8 @@ Problem with_half_steps(const Problem& first) {
   before.gap_mm = after.gap_mm;
   std::vector<Loads> steps = {mean(before, after), after};
   for (const Loads& step : first.later_steps) {
-    steps.push_back(mean(steps.back(), step));
+    const bool has_middle = same_supports(first, steps.back(), step);
+    steps.push_back(has_middle ? mean(steps.back(), step) : step);
     steps.push_back(step);
   }
   Problem halved = with_loads(first, std::move(steps.front()));
@@ -123,7 +136,8 @@ Eigen::MatrixXd slid_after(const ContactSystem& system, const Solution& answer) 
                                 " before a step of degree " + std::to_string(coefficients - 1));
   if (in_displacements) {
     const ControlPoints points = control_points(problem, system.degree + 1);
-    add_of_control_points(problem, points, less_gap(points.law, answer.contact_displacement), slid);
+    add_of_control_points(problem, points, less_gap(points.law, answer.contact_displacement),
+                          std::get<Displacements>(answer.unknowns).w, slid);
   } else {
     add_of_contact_points(system.contact, less_gap(system.contact, answer.contact_displacement),
                           slid);
@@ -156,16 +170,22 @@ Solution solve_load_steps(const Solve& solve, ContactSystem& system, const RunCo
   RunControl keeping = control;
   keeping.keep_body = !first->later_steps.empty();
   Solution answer = solve_load_case(solve, system, keeping);
-  const Solve again = answer.solve_again ? answer.solve_again : solve;
+  Solve again = answer.solve_again ? answer.solve_again : solve;
   answer.solve_again = nullptr;  // `again` has the body
   if (visit) visit(0, system, answer);
   for (std::size_t k = 0; k < first->later_steps.size() && has_answer(answer.status); ++k) {
     Loads loads = first->later_steps[k];
     loads.slid_mm = slid_after(system, answer);
+    const bool is_new_body = !same_supports(*first, system.problem->loads, loads);
     system.set_load_case(std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
-    RunControl from_here = control;
-    if (answer.F_C.allFinite()) from_here.contact.start = std::move(answer.F_C);
+    if (is_new_body) again = solve;
+    RunControl from_here = is_new_body ? keeping : control;
+    // Of displacements other nodes may have a law then.
+    const bool has_same_points = !is_new_body || answer.as<Displacements>() == nullptr;
+    if (has_same_points && answer.F_C.allFinite()) from_here.contact.start = std::move(answer.F_C);
     answer = solve_load_case(again, system, from_here);
+    if (answer.solve_again) again = std::move(answer.solve_again);
+    answer.solve_again = nullptr;
     if (visit) visit(static_cast<int>(k) + 1, system, answer);
   }
   return answer;

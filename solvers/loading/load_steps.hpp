@@ -9,8 +9,9 @@
 // off, too. Signorini's law has no memory. (Implicit Euler for the quasi-static problem.)
 //
 // The body is condensed or factorised once where the method can (kept_body.hpp), and what a step
-// costs is a load case; a condensed law begins with the forces of the step before. A path is not
-// its last step: unloading leaves tangential forces behind. But where everything grows in
+// costs is a load case; a condensed law begins with the forces of the step before. A step that
+// loads what was held, or holds what was loaded, is another body, with the slip so far. A path is
+// not its last step: unloading leaves tangential forces behind. But where everything grows in
 // proportion, without gap, one step and many are the same.
 #pragma once
 
@@ -27,6 +28,7 @@ double dissipation_Nmm(const ContactSystem& system, const Solution& answer);
 
 // The same path with every step in two halves: in the middle loads and gap are the mean of what
 // they are before and after. Before the first the body has no load, and the gap that it has there.
+// A step with other supports than the one before has no middle: it comes whole, twice.
 Problem with_half_steps(const Problem& first);
 
 // step: from 0. The system is that of the step, its slip measured from this path's own past.

@@ -191,6 +191,20 @@ TEST_F(Decks, CardsOfOneStepAddUp) {
             R"({"force:Eall_P1":{"pressure_MPa":9.0}})");
 }
 
+// With OP=NEW the sole is held instead of the head, which is pressed then.
+TEST_F(Decks, AnotherStepMayHoldOtherSides) {
+  const nlohmann::json scene = of(plate({{"Nhead, 1, 2\n",
+                                          "Nhead, 1, 2, 0.01\n*END STEP\n*STEP\n*STATIC\n"
+                                          "*BOUNDARY, OP=NEW\n1, 1, 2\n2, 1, 2\n3, 1, 2\n"
+                                          "*DLOAD\nEall, P3, 5.\n"}}));
+  EXPECT_EQ(scene["boundary"].dump(),
+            R"({"displacement:Nhead":{"displacement_mm":[0.01,0.01],"support":"full"},)"
+            R"("force:held":{"pressure_MPa":0.0}})");
+  EXPECT_EQ(scene["load_steps"].dump(),
+            R"([{"boundary":{"displacement:Nhead":{"pressure_MPa":5.0},)"
+            R"("force:held":{"displacement_mm":[0.0,0.0],"support":"full"}}}])");
+}
+
 TEST_F(Decks, SurfacesAndSetsOfOneNameAreTwo) {
   const nlohmann::json scene =
       of(plate({{"*MATERIAL", "*NSET, NSET=Ssole\n1, 4\n*MATERIAL"},

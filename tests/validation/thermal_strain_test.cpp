@@ -134,6 +134,27 @@ TEST(ThermalStrain, ShrinksARimOnItsHub) {
   }
 }
 
+// A fit whose faces are bonded, not just pressed: an interference is a temperature. Its energy is
+// that of Lamé's pressure on the way δ.
+TEST(ThermalStrain, IsTheInterferenceOfBondedRings) {
+  const auto radii = [](double from, double to) {
+    return std::vector<double>{from, std::lerp(from, to, 0.5), to};
+  };
+  const Mesh mesh =
+      ShrinkFit::mesh(radii(ShrinkFit::a, ShrinkFit::b), 24, radii(ShrinkFit::b, ShrinkFit::c), 31);
+  Scene scene = ShrinkFit::scene();
+  scene.contacts[0] = {.between = scene.contacts[0].between, .law = ContactPair::Law::bonded};
+  scene.boundary.erase("contact:hub");
+  scene.boundary.erase("contact:rim");
+  scene.materials["hub"].expansion_per_K = alpha;
+  scene.temperature_K["hub"] =
+      uniform(ShrinkFit::delta / (ShrinkFit::b * alpha * (1 + ShrinkFit::nu)));
+  const double energy =
+      ShrinkFit::pressure_MPa() * ShrinkFit::delta / 2 * ShrinkFit::b * std::numbers::pi / 2;
+  for (const char* name : {"HYBRID:k=2", "HYBRID:k=3", "P2", "P3"})
+    EXPECT_NEAR(Solved(scene, mesh, name).energy(), energy, 0.01 * energy) << name;
+}
+
 // Friction, bodies of two materials, one of them warmer to one side, meshes that do not match.
 TEST(ThermalStrain, AllMethodsAgreeAndTheErrorIsKnown) {
   const Mesh mesh = testing::two_blocks(7, 10);

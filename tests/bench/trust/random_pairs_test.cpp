@@ -13,6 +13,7 @@
 
 #include "mesh/quality.hpp"
 #include "tests/support/dice.hpp"
+#include "tests/support/elevated.hpp"
 #include "tests/support/pieces.hpp"
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/sanitized.hpp"
@@ -72,28 +73,6 @@ Pair random_pair(Dice& dice) {
   return pair;
 }
 
-// The same field with coefficients of a higher degree, one by one: c'_α = Σ_i α_i / d c_{α − e_i}.
-StressField elevated(StressField field, int degree) {
-  while (field.degree() < degree) {
-    const int d = field.degree() + 1, before = bernstein_count(d - 1), after = bernstein_count(d);
-    StressField higher(field.size(), d);
-    higher.values().setZero();
-    for (int third = 0; third < 3 * static_cast<int>(field.size()); ++third)
-      for (int c = 0; c <= d; ++c)
-        for (int b = 0; b <= d - c; ++b) {
-          auto to = higher.values().col(third * after + ring_place(d, b, c));
-          const auto from = [&](int b1, int c1) {
-            return field.values().col(third * before + ring_place(d - 1, b1, c1));
-          };
-          if (const int a = d - b - c; a > 0) to += double(a) / d * from(b, c);
-          if (b > 0) to += double(b) / d * from(b - 1, c);
-          if (c > 0) to += double(c) / d * from(b, c - 1);
-        }
-    field = std::move(higher);
-  }
-  return field;
-}
-
 ConstitutiveError error_by_displacements(const SolvedScene& own, const Pair& pair, int k) {
   const SolvedScene other(pair.scene, pair.mesh, displacements_of_degree(k + 1));
   return constitutive_error(
@@ -130,9 +109,10 @@ TEST(RandomPairs, TheTotalErrorIsNeitherTooSmallNorFarTooLarge) {
                       pair.scene.temperature_K.empty() ? "" : "warm, ", k);
       EXPECT_EQ(error.flaw, "") << name;
       EXPECT_EQ(error.guaranteed, pair.scene.friction == 0) << name;
-      const double off = stress_distance(best.problem(), elevated(own.solution.stress, highest + 1),
-                                         best.solution.stress) /
-                         norm;
+      const double off =
+          stress_distance(best.problem(), testing::elevated(own.solution.stress, highest + 1),
+                          best.solution.stress) /
+          norm;
       // By both bounds, which friction turns into estimates.
       const double certain = pair.scene.friction == 0 ? 1 : 1.1;
       EXPECT_LE(off, certain * (error.relative + best_error)) << name;
