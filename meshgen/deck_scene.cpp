@@ -121,7 +121,7 @@ class SceneReader {
     points_ = held_alone(states_.front());
     for (const StepState& state : states_) {
       const std::map<long, Held> points = held_alone(state);
-      for (const auto* of : {&points, &points_})
+      for (const auto* of : {&points, &std::as_const(points_)})
         for (const auto& [node, held] : *of)
           if (!points.contains(node) || !points_.contains(node) ||
               points.at(node) != points_.at(node))

@@ -42,7 +42,7 @@ endif()
 set(module ${prefix}/lib/python3/dist-packages)
 if(EXISTS ${module})
   step(${CMAKE_COMMAND} -E env PYTHONPATH=${module} ${PYTHON} -c
-       "import airybench as ab; p = ab.Problem('Mesh0'); print(p.judge(p.solve())['status'], ab.__file__)")
+       "import airybench as ab\np = ab.Problem('Mesh0')\nprint(p.judge(p.solve())['status'], ab.__file__)")
   if(NOT said STREQUAL "ok ${module}/airybench/__init__.py\n")
     message(FATAL_ERROR "import airybench: ${said}")
   endif()
