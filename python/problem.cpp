@@ -221,7 +221,7 @@ void bind_problem(py::module_& module) {
       "takes. scene: a dict or a JSON file; None: the deck's own, or the default. Keys by name\n"
       "replace those of the scene (docs/meshes-and-scenes.md). Lengths mm, forces N per mm of\n"
       "thickness, stresses MPa. Raises InputError; notes are warnings.")
-      .def(py::init(&posed), py::arg("mesh"), py::arg("scene") = py::none())
+      .def(py::init(&posed), py::arg("mesh"), py::pos_only(), py::arg("scene") = py::none())
       .def_property_readonly("name", &BoundProblem::name)
       .def_property_readonly(
           "scene",
@@ -313,7 +313,9 @@ void bind_problem(py::module_& module) {
           "What the verifier finds of a Solution, or of contact forces r (as condensed() has "
           "them,\n"
           "N, for stresses of that degree): a dict of the fields of a record (results/README.md),\n"
-          "status and status_reason first of all, error_stress, error_force, error_total, ….")
+          "status and status_reason first of all, error_stress, error_force, error_total, …; of a\n"
+          "path `steps`, a dict per load step with its n_open, n_stick, n_slip, resultants,\n"
+          "dissipation_Nmm and errors.")
       .def("adapt", &adapted, py::kw_only(), py::arg("error") = py::none(),
            py::arg("unknowns") = py::none(), py::arg("degree") = "auto",
            py::arg("marking") = py::none(), py::arg("threads") = 1, py::arg("timeout") = 900.,

@@ -218,7 +218,8 @@ void bind_solution(py::module_& module) {
                              "The method's own, relative; None: it has none.")
       .def_property_readonly(
           "history", [](const BoundSolution& self) { return histories_of(self.last().solution); },
-          "Residuals per iteration, by what they are of.")
+          "Residuals per iteration, by what they are of. Krylov methods: of the first\n"
+          "right-hand side, one number where that is zero.")
       .def_property_readonly("linear_iterations", of_last(&Solution::linear_iterations))
       .def_property_readonly("contact_iterations", of_last(&Solution::contact_iterations))
       .def_property_readonly("parameters", of_last(&Solution::parameters))
