@@ -1,0 +1,13 @@
+// A quarter of a strip 4 mm wide with a hole of radius 1 mm.
+DefineConstant[ h = 1 ];
+a = 1;  b = 1;  L = 9;  W = 2;
+Point(1) = {0, 0, 0, h};  Point(2) = {a, 0, 0, 0.15};  Point(3) = {L, 0, 0, h};
+Point(4) = {L, W, 0, h};  Point(5) = {0, W, 0, h};  Point(6) = {0, b, 0, 0.15};
+Line(1) = {2, 3};  Line(2) = {3, 4};  Line(3) = {4, 5};  Line(4) = {5, 6};
+Circle(5) = {6, 1, 2};
+Curve Loop(1) = {1 : 5};  Plane Surface(1) = {1};
+Physical Curve("displacement:below") = {1};
+Physical Curve("displacement:left") = {4};
+Physical Curve("force:end") = {2};
+Physical Curve("force:free") = {3, 5};
+Physical Surface("plate") = {1};
