@@ -96,9 +96,10 @@ def table_of(rows: list[dict]) -> str:
     for k, row in enumerate(rows):
         is_first = k == 0 or rows[k - 1]["case"] != row["case"]
         ours = values(row, "ours") + (f" ± {row['off']:.2g}" if row["off"] is not None else "")
+        formula, because = (row[key].replace("|", r"\|") for key in ("formula", "because"))
         off = "–" if row["deviation"] is None else percent(abs(row["deviation"]))
-        lines.append(f"| {row['title'] + ' `' + row['case'] + '`' if is_first else ''} | {row['quantity']}: {row['formula']} | "
-                     f"{values(row, 'published')} {row['unit']} | {ours} | {off} | {percent(row['allowed'])}: {row['because']} |")
+        lines.append(f"| {row['title'] + ' `' + row['case'] + '`' if is_first else ''} | {row['quantity']}: {formula} | "
+                     f"{values(row, 'published')} {row['unit']} | {ours} | {off} | {percent(row['allowed'])}: {because} |")
     sources = dict.fromkeys((row["case"], row["source"]) for row in rows)
     return "\n".join([*lines, "", *(f"- `{case}`: {source}" for case, source in sources)]) + "\n"
 
