@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -170,22 +171,20 @@ Solution solve_load_steps(const Solve& solve, ContactSystem& system, const RunCo
   RunControl keeping = control;
   keeping.keep_body = !first->later_steps.empty();
   Solution answer = solve_load_case(solve, system, keeping);
-  Solve again = answer.solve_again ? answer.solve_again : solve;
-  answer.solve_again = nullptr;  // `again` has the body
+  Solve again = std::exchange(answer.solve_again, nullptr);  // it has the body
   if (visit) visit(0, system, answer);
   for (std::size_t k = 0; k < first->later_steps.size() && has_answer(answer.status); ++k) {
     Loads loads = first->later_steps[k];
     loads.slid_mm = slid_after(system, answer);
     const bool is_new_body = !same_supports(*first, system.problem->loads, loads);
     system.set_load_case(std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
-    if (is_new_body) again = solve;
+    if (is_new_body) again = nullptr;
     RunControl from_here = is_new_body ? keeping : control;
     // Of displacements other nodes may have a law then.
     const bool has_same_points = !is_new_body || answer.as<Displacements>() == nullptr;
     if (has_same_points && answer.F_C.allFinite()) from_here.contact.start = std::move(answer.F_C);
-    answer = solve_load_case(again, system, from_here);
-    if (answer.solve_again) again = std::move(answer.solve_again);
-    answer.solve_again = nullptr;
+    answer = solve_load_case(again ? again : solve, system, from_here);
+    if (answer.solve_again) again = std::exchange(answer.solve_again, nullptr);
     if (visit) visit(static_cast<int>(k) + 1, system, answer);
   }
   return answer;

@@ -276,6 +276,25 @@ TEST(ChangedSupportsOf, StressesOfEveryDegreeHaveGuaranteedBounds) {
   }
 }
 
+// A function that solves is the same one before and after.
+TEST(ChangedSupportsOf, AFunctionWithAStateKeepsIt) {
+  Scene scene = on_wall(0.3, {0.006, -0.01});
+  scene.later_steps = {loaded("displacement:head", {40, -400}),
+                       loaded("displacement:head", {40, -400}),
+                       moved("displacement:head", {0, -0.01})};
+  ContactSystem system = contact_system(posed(scene, block()));
+  std::vector<int> counted;
+  const Solve solve = [&counted, count = 0, hybrid = select_methods("HYBRID").front()](
+                          const ContactSystem& of_step, const RunControl& control) mutable {
+    counted.push_back(count++);
+    Solution answer = hybrid.solve(of_step, control);
+    answer.solve_again = nullptr;
+    return answer;
+  };
+  solve_load_steps(solve, system, {});
+  EXPECT_EQ(counted, (std::vector{0, 1, 2, 3}));
+}
+
 // Such a step has no middle: it comes whole, and again.
 TEST(ChangedSupportsOf, HalvedPathsAreNotHalved) {
   Scene scene = on_wall(0.3, {0.006, -0.01});
