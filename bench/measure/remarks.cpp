@@ -119,8 +119,8 @@ std::vector<std::string> remarks_on_half_steps(const std::vector<StepResult>& st
   const std::vector<StepChange> changes = changes_in_halves(steps, halves);
   const auto differs = std::ranges::count_if(changes, &StepChange::is_seen);
   if (whole > 0 && (differs > 0 || !remarks.front().empty()))
-    remarks.push_back(fmt::format(
-        "{} of the steps, with other supports than the one before, were not halved", whole));
+    remarks.push_back(
+        fmt::format("not halved: {} of the steps, with other supports than the one before", whole));
   if (differs == 0) return remarks;
   const auto worst = std::ranges::max_element(changes, {}, [](const StepChange& change) {
     return std::pair(change.points, change.of_force);
