@@ -5,7 +5,6 @@
 #        tests/update_tables.sh --fields    what follows from bench/records/record_fields.def:
 #                                           tables of results/README.md, plots/record_fields.json
 #        tests/update_tables.sh --published   table and picture of published cases in docs/validation.md
-#        tests/update_tables.sh --validation  the values of docs/validation.md and their figure
 set -euo pipefail
 cd -- "$(dirname "$(dirname "$(realpath -- "${BASH_SOURCE[0]}")")")"
 if [[ ${1:-} == --fields ]]; then
@@ -15,10 +14,6 @@ fi
 if [[ ${1:-} == --published ]]; then
   build/release/bench/bench validate --out=build/published || true  # the table says what differs
   exec /usr/bin/python3 plots/validation.py build/published --page=docs/validation.md --out=docs/images
-fi
-if [[ ${1:-} == --validation ]]; then
-  AIRYBENCH_UPDATE=anew build/release/tests/validation_test --gtest_brief=1 --gtest_filter=-Families/*
-  exec /usr/bin/python3 plots/validation_profiles.py
 fi
 update=anew
 if [[ ${1:-} == --widen ]]; then update=widen; fi

@@ -1,15 +1,11 @@
 """What is drawn and written from committed numbers is the same again.  /usr/bin/python3 -m unittest FILE"""
 import shutil
-import tempfile
-import unittest
-from pathlib import Path
 
 import matplotlib
 
 from running import PROJECT, FolderTest, run
 
 import figures
-import validation_profiles
 
 # A picture's bytes are those of the library that drew it; the numbers next to it are the same with any.
 DRAWN_BY = "3.6.3"
@@ -30,20 +26,3 @@ class RedrawnTest(FolderTest):
                 if path.suffix in (".csv", ".md") or matplotlib.__version__ == DRAWN_BY:
                     self.assertEqual((self.figures / path.name).read_bytes(), path.read_bytes(),
                                      f"{folder.name}/{path.name}")
-
-
-class ValidationTest(unittest.TestCase):
-    def test_the_tables_are_those_of_the_committed_values(self) -> None:
-        written = (PROJECT / "docs/validation.md").read_text(encoding="utf-8")
-        status, printed, _ = run(validation_profiles, "--table")
-        self.assertEqual(status, 0)
-        tables = printed.strip().split("\n\n")
-        self.assertEqual(len(tables), 4)
-        for table in tables:
-            self.assertIn(f"\n\n{table}\n\n", written)
-
-    def test_the_figure_is_drawn(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            out = Path(folder) / "validation.png"
-            self.assertEqual(run(validation_profiles, f"--out={out}")[0], 0)
-            self.assertTrue(out.read_bytes().startswith(b"\x89PNG"))

@@ -80,60 +80,6 @@ TEST(ThermalStrain, PressesABlockBetweenRollers) {
   }
 }
 
-// Timoshenko's strip: curvature 3 Δε / 2h of two equal layers of total height h; its end moves by
-// κ L²/2.
-TEST(ThermalStrain, BendsABimetalStrip) {
-  constexpr double length = 40, height = 2;
-  Mesh mesh;
-  mesh.name = "strip";
-  testing::add_block(mesh, "lower", {0, -height / 2}, {length, 0}, 40, 2,
-                     {"force", "force:end", "contact:lower", "force"});
-  testing::add_block(mesh, "upper", {0, 0}, {length, height / 2}, 48, 2,
-                     {"contact:upper", "force:end", "force", "force"});
-  Scene scene = warm_block({}, Plane::stress);
-  scene.temperature_K = {{"upper", uniform(100)}};
-  scene.contacts = {
-      {.between = {{{"contact:lower"}, {"contact:upper"}}}, .law = ContactPair::Law::bonded}};
-  scene.point_supports = {{.at_mm = {0, 0}, .displacement_mm = {0., 0.}},
-                          {.at_mm = {0, -height / 2}, .displacement_mm = {0., std::nullopt}}};
-  const double bends_mm = -1.5 * alpha * 100 / height * length * length / 2;
-  double before = 1;
-  for (const char* name : {"HYBRID:k=2", "HYBRID:k=3"}) {
-    const Solved solved(scene, mesh, name);
-    const ConstitutiveError error = solved.recovered_error();
-    EXPECT_TRUE(error.flaw.empty()) << error.flaw;
-    EXPECT_LT(error.relative, before);
-    before = error.relative;
-    const DisplacementField u =
-        with_rigid_motion(solved.problem(), recovered_displacement(solved.system, solved.solution));
-    double lowest = 0;
-    for (std::size_t v = 0; v < solved.problem().mesh.vertices.size(); ++v)
-      lowest = std::min(lowest, u(1, static_cast<Eigen::Index>(v)));
-    EXPECT_NEAR(lowest, bends_mm, 0.03 * std::abs(bends_mm)) << name;
-  }
-}
-
-// A rim is cooled on its hub until it has the interference of the press fit.
-TEST(ThermalStrain, ShrinksARimOnItsHub) {
-  const auto radii = [](double from, double to) {
-    return std::vector<double>{from, std::lerp(from, to, 0.5), to};
-  };
-  const Mesh mesh =
-      ShrinkFit::mesh(radii(ShrinkFit::a, ShrinkFit::b), 16, radii(ShrinkFit::b, ShrinkFit::c), 21);
-  Scene scene = ShrinkFit::scene();
-  scene.contacts[0].clearance_mm.reset();
-  scene.materials["rim"].expansion_per_K = alpha;
-  scene.temperature_K["rim"] =
-      uniform(-ShrinkFit::delta / (ShrinkFit::b * alpha * (1 + ShrinkFit::nu)));
-  for (const char* name : {"HYBRID:k=2", "P2"}) {
-    const Solved solved(scene, mesh, name);
-    const double arc = ShrinkFit::b * std::numbers::pi / 2;
-    double sum = 0;
-    for (Eigen::Index p = 0; p < solved.solution.F_C.size(); ++p) sum -= solved.solution.F_C(p);
-    EXPECT_NEAR(sum / 2 / arc, ShrinkFit::pressure_MPa(), 0.01 * ShrinkFit::pressure_MPa()) << name;
-  }
-}
-
 // A fit whose faces are bonded, not just pressed: an interference is a temperature. Its energy is
 // that of Lamé's pressure on the way δ.
 TEST(ThermalStrain, IsTheInterferenceOfBondedRings) {
