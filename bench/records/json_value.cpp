@@ -70,7 +70,7 @@ Json json_of_file(const std::string& name, const std::string& text) {
   std::vector<std::set<std::string>> keys;
   const auto refuse = [&](const std::string& what) { throw FileError(name + ": " + what); };
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > 8) refuse("nested more than 8 deep");
+    if (depth > 10) refuse("nested more than 10 deep");
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event != Json::parse_event_t::key) return true;

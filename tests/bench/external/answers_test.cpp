@@ -67,7 +67,7 @@ TEST_F(Answers, OfTheAnswersFile) {
           {"no_json", condensed, says("ok"), "answer.json: not JSON: "},
           {"list", condensed, says("[]"), "the file: [] (allowed: a JSON object)"},
           {"deep", condensed, "head -c 1M /dev/zero | tr '\\0' '[' > $2/answer.json",
-           "nested more than 8 deep"},
+           "nested more than 10 deep"},
           {"no_status", condensed, says(R"({"time_s": 1e-6})"), "status: is missing"},
           {"our_status", condensed, says(R"({"status": "timeout", "time_s": 1e-6})"),
            "status: \"timeout\" (allowed: ok,"},

@@ -16,7 +16,7 @@ TEST_F(ExternalDeclarations, WrongOnesAreRefused) {
   };
   refused("", "not JSON: parse error");
   refused("[1]", "the file: [1] (allowed: a JSON object)");
-  refused(std::string(100'000, '['), "nested more than 8 deep");
+  refused(std::string(100'000, '['), "nested more than 10 deep");
 
   const Json right = declaration("one", "condensed", {"true", "{output}"}),
              body = {{"reads", "body"}, {"returns", "displacement"}};

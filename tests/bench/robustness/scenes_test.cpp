@@ -35,7 +35,7 @@ TEST(HostileScenes, AreRefusedInOneLine) {
             "ratio: 1e+300 (allowed: up to"},
            {R"({"mesh":{"refine":6}})", "triangles; allowed: up to 1000000)"},
            {R"({"materials":)" + many + "}", "more than 1000 keys in one object"},
-           {std::string(5000, '[') + std::string(5000, ']'), "nested more than 8 deep"},
+           {std::string(5000, '[') + std::string(5000, ']'), "nested more than 10 deep"},
            {R"({"friction":")" + std::string(5000, 'x') + "\"}", "friction: \"xxx"},
            {R"({")" + std::string(5000, 'x') + "\":1}", "unknown key (allowed: "},
            {"{\"friction\":\"\xff\"}", "not JSON: "},
