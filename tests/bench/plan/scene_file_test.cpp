@@ -154,8 +154,8 @@ TEST_F(SceneFile, ComplaintsOfLoadSteps) {
         "load_steps: 1: boundary: displacement: support (allowed: "},
        {R"({"load_steps": [{"boundary": {"contact": {"friction": 1}}}]})",
         "load_steps: 1: boundary: contact: friction (allowed: "},
-       {R"({"load_steps": [{"boundary": {"force": {"displacement_mm": [0, 0]}}}]})",
-        "load_steps: 1: boundary: force: displacement_mm (allowed: on a displacement boundary)"}});
+       {R"({"load_steps": [{"boundary": {"force": {"displacement_mm": [0, 0], "pressure_MPa": 1}}}]})",
+        "load_steps: 1: boundary: force: displacement_mm and pressure_MPa (allowed: either"}});
 }
 
 TEST_F(SceneFile, WallsFacesAndContactGroups) {
