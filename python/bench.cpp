@@ -30,24 +30,31 @@ class Callable {
           delete last;
         }) {}
 
-  template <typename Result, typename Argument>
-  Result operator()(const Argument& argument) const {
+  template <typename Argument>
+  Eigen::VectorXd numbers(const Argument& argument, const char* name, Eigen::Index size) const {
     const py::gil_scoped_acquire acquire;
-    return (*function_)(argument).template cast<Result>();
+    Eigen::VectorXd answer = numbers_of((*function_)(argument), name);
+    if (answer.size() != size)
+      throw InputError(fmt::format("{}: {} numbers (allowed: {})", name, answer.size(), size));
+    return answer;
+  }
+  template <typename Argument>
+  Eigen::MatrixX2d pairs(const Argument& argument, const char* name, Eigen::Index rows) const {
+    const py::gil_scoped_acquire acquire;
+    const Eigen::MatrixXd answer = matrix_of((*function_)(argument), name);
+    if (answer.rows() != rows || answer.cols() != 2)
+      throw InputError(
+          fmt::format("{}: ({}, {}) (allowed: ({}, 2): vertices, then middles of edges)", name,
+                      answer.rows(), answer.cols(), rows));
+    return answer;
   }
 
  private:
   std::shared_ptr<py::function> function_;
 };
 
-Eigen::VectorXd of_size(Eigen::VectorXd answer, Eigen::Index size, const char* what) {
-  if (answer.size() != size)
-    throw InputError(fmt::format("{}: {} numbers (allowed: {})", what, answer.size(), size));
-  return answer;
-}
-
 Method method_of_callable(const py::function& function, const std::string& name,
-                          const std::string& reads, const std::string& elements,
+                          const std::string& reads, const std::string& elements, int degree,
                           const std::string& summary) {
   if (!is_plain_program_name(name))
     throw UsageError(
@@ -57,30 +64,33 @@ Method method_of_callable(const py::function& function, const std::string& name,
   if (elements != "P2" && (elements != "other" || reads != "body"))
     throw UsageError(
         fmt::format("method: elements: '{}' (allowed: P2, and with reads='body' other)", elements));
+  if (degree < 1 || degree > highest_degree || (degree > 1 && reads != "condensed"))
+    throw UsageError(
+        fmt::format("method: degree: {} (allowed: 1, and with reads='condensed' to {})", degree,
+                    highest_degree));
   const Callable call(function);
   Method method;
   if (reads == "condensed") {
     method = contact_law_method(
         kept([call](const contact::Problem& problem) {
           // A copy: Python may keep it.
-          auto r = call.operator()<Eigen::VectorXd>(std::make_shared<contact::Problem>(problem));
-          return Eigen::VectorXd(-of_size(std::move(r), problem.points.size(), "r"));
+          return Eigen::VectorXd(-call.numbers(std::make_shared<contact::Problem>(problem), "r",
+                                               problem.points.size()));
+        }),
+        name, summary, degree);
+  } else if (reads == "airy") {
+    method = airy_method(
+        kept([call](const AirySystem& system) {
+          return call.numbers(
+              arrays_of(system.problem->mesh.name + ": Airy system", airy_arrays(system)), "x",
+              system.n());
         }),
         name, summary);
-  } else if (reads == "airy") {
-    method = airy_method(kept([call](const AirySystem& system) {
-                           auto x = call.operator()<Eigen::VectorXd>(arrays_of(
-                               system.problem->mesh.name + ": Airy system", airy_arrays(system)));
-                           return of_size(std::move(x), system.n(), "x");
-                         }),
-                         name, summary);
   } else if (reads == "body") {
     method = displacement_method(
         kept([call](const Problem& problem) {
-          auto u = call.operator()<Eigen::MatrixX2d>(
-              body_arrays_of(problem, problem.mesh.name + ": body"));
-          of_size(u.col(0), displacement_nodes(problem), "rows of u");
-          return u;
+          return call.pairs(body_arrays_of(problem, problem.mesh.name + ": body"), "u",
+                            displacement_nodes(problem));
         }),
         {.allowed_penetration = usual_penetration, .other_elements = elements == "other"}, name,
         summary);
@@ -129,12 +139,18 @@ std::vector<std::string> run_bench(const std::vector<std::string>& arguments,
 
 }  // namespace
 
-Method method_of(const py::object& given, int degree) {
-  if (py::isinstance<Method>(given)) return given.cast<Method>();
-  const auto name = given.cast<std::string>();
-  std::vector<Method> found = select_methods(name, {}, degree);
+Method method_of(const py::object& given, std::optional<int> degree) {
+  std::vector<Method> found;
+  if (py::isinstance<Method>(given))
+    found = {given.cast<Method>()};
+  else
+    found = select_methods(py::str(given).cast<std::string>(), {}, degree.value_or(1));
   if (found.size() != 1)
-    throw UsageError(fmt::format("method: '{}': {} methods (allowed: one)", name, found.size()));
+    throw UsageError(fmt::format("method: '{}': {} methods (allowed: one)",
+                                 py::str(given).cast<std::string>(), found.size()));
+  if (degree && found.front().degree != *degree)
+    throw UsageError(fmt::format("degree: {} (allowed: of HYBRID; {} has stresses of degree {})",
+                                 *degree, found.front().name, found.front().degree));
   return std::move(found.front());
 }
 
@@ -151,7 +167,7 @@ void bind_bench(py::module_& module) {
       });
   module.def("methods", &methods, "All named methods, as bench list prints them.");
   module.def("_method", &method_of_callable, py::arg("function"), py::arg("name"), py::arg("reads"),
-             py::arg("elements"), py::arg("summary"));
+             py::arg("elements"), py::arg("degree"), py::arg("summary"));
   module.def("_bench", &run_bench, py::arg("arguments"), py::arg("methods"));
   module.def("_better_blas_core", &better_blas_core);
   module.def("_data_folder", [](const std::string& name) { return data_folder(name).string(); });

@@ -47,7 +47,11 @@ py::array view(const std::vector<double>& numbers, py::handle owner);
 py::object view(const SparseRows& matrix, py::handle owner);  // a scipy.sparse.csr_matrix
 py::object view(const ProblemArray& array, py::handle owner);
 
-py::object from_json(const Json& json);  // objects without what is null
+// Of anything that NumPy makes an array of. Throw InputError: what it is called, its shape.
+Eigen::VectorXd numbers_of(const py::handle& object, const char* name);
+Eigen::MatrixXd matrix_of(const py::handle& object, const char* name);
+
+py::object from_json(const Json& json);
 Json to_json(const py::handle& object);
 
 // The arrays of one system, which Python reads as attributes.
@@ -111,7 +115,7 @@ class NotesAsWarnings {
 };
 
 // A name of bench list, "HYBRID:k=2", or a Method of Python's. Throws InputError.
-Method method_of(const py::object& given, int degree = 1);
+Method method_of(const py::object& given, std::optional<int> degree);
 // A solver takes an exception for its own failure: what a function of ours or of Python's throws is
 // kept, and thrown again by rethrow_kept() in the same thread.
 [[noreturn]] void keep_current_exception();

@@ -28,17 +28,18 @@ std::shared_ptr<Problem> problem_of(SparseRows W, Eigen::VectorXd q, const py::o
   const Eigen::Index rows = q.size();
   if (W.rows() != rows || W.cols() != rows)
     refuse("W", fmt::format("({}, {})", W.rows(), W.cols()), fmt::format("({0}, {0}) of q", rows));
-  const bool is_scalar = py::isinstance<py::float_>(mu) || py::isinstance<py::int_>(mu);
-  if (is_scalar && !components) components = 2;
-  Eigen::VectorXd friction = is_scalar
-                                 ? Eigen::VectorXd::Constant(rows / *components, mu.cast<double>())
-                                 : mu.cast<Eigen::VectorXd>();
+  if (components && (*components < 1 || *components > 3))
+    refuse("components", std::to_string(*components), "1, 2 or 3");
+  Eigen::VectorXd friction = numbers_of(mu, "mu");
+  const bool is_for_all = py::module_::import("numpy").attr("ndim")(mu).cast<int>() == 0;
+  if (is_for_all)
+    friction = Eigen::VectorXd::Constant(rows / components.value_or(2), double{friction(0)});
   const Eigen::Index count = friction.size();
   const auto dimension =
-      components ? *components : static_cast<int>(rows / std::max<Eigen::Index>(1, count));
+      components.value_or(static_cast<int>(rows / std::max<Eigen::Index>(1, count)));
   if (dimension < 1 || dimension > 3 || count * dimension != rows || count == 0)
     refuse("mu", fmt::format("{} numbers for {} rows of q", count, rows),
-           "one per contact of 1, 2 or 3 rows");
+           "one per contact of 1, 2 or 3 rows (components); one for all: of 2");
   W.makeCompressed();
   return std::make_shared<Problem>(local_problem(
       std::move(W), std::move(q), points_of(dimension, friction, "mu", refuse), "W", refuse));
@@ -53,6 +54,8 @@ struct Result {
 std::shared_ptr<Result> solve(const Problem& problem, const std::string& solver, double tolerance,
                               int max_iterations, double timeout,
                               const std::optional<Eigen::VectorXd>& start) {
+  if (!(tolerance > 0)) refuse("tolerance", fmt::format("{}", tolerance), "above 0");
+  if (max_iterations < 1) refuse("max_iterations", std::to_string(max_iterations), "1 or more");
   const auto by = contact_solver_of(solver);
   if (!by)
     refuse("solver", "'" + solver + "'",
@@ -86,6 +89,7 @@ std::shared_ptr<Result> solve(const Problem& problem, const std::string& solver,
 py::object judged(const Problem& problem, const Eigen::VectorXd& r) {
   if (r.size() != problem.points.size())
     refuse("r", fmt::format("{} numbers", r.size()), std::to_string(problem.points.size()));
+  if (!r.allFinite()) refuse("r", "not finite", "numbers");
   Record record;
   take_over(verify(problem, -r), record);
   const Json all = airybench::to_json(record);
@@ -103,14 +107,15 @@ void bind_contact(py::module_ module) {
       module, "Problem",
       "u = W r + q, r_n >= 0, u_n >= 0, r_n u_n = 0; |r_t| <= mu r_n, sliding opposed to it.\n\n"
       "W: symmetric, positive diagonal, NumPy or scipy.sparse; q: a vector; mu: per contact, or\n"
-      "one number for all. Per contact a normal row, and tangential ones: 2 components in the\n"
-      "plane, 3 in space. Raises InputError.")
-      .def(py::init([](const py::object& W, const Eigen::VectorXd& q, const py::object& mu,
+      "one number for all, of contacts with 2 components unless told otherwise. Per contact a\n"
+      "normal row, and tangential ones: 2 components in the plane, 3 in space. What W differs\n"
+      "from its transpose by, up to 1 %, is kept. Raises InputError.")
+      .def(py::init([](const py::object& W, const py::object& q, const py::object& mu,
                        std::optional<int> components) {
              const bool is_sparse = py::hasattr(W, "tocsr");
-             return problem_of(is_sparse ? W.cast<SparseRows>()
-                                         : SparseRows(W.cast<Eigen::MatrixXd>().sparseView(0, 0)),
-                               q, mu, components);
+             return problem_of(
+                 is_sparse ? W.cast<SparseRows>() : SparseRows(matrix_of(W, "W").sparseView(0, 0)),
+                 numbers_of(q, "q"), mu, components);
            }),
            py::arg("W"), py::arg("q"), py::arg("mu") = 0., py::arg("components") = py::none())
       .def_property_readonly(
@@ -189,7 +194,8 @@ void bind_contact(py::module_ module) {
              py::arg("tolerance") = 1e-12, py::arg("max_iterations") = 100000,
              py::arg("timeout") = 900., py::arg("start") = py::none(),
              "Solves it by 'newton', 'gauss-seidel', 'anderson' or 'admm' until the residual of\n"
-             "the natural map is below the tolerance. Raises Timeout, Breakdown; Ctrl-C ends it.");
+             "the natural map is below the tolerance, or says that it has not converged. Raises\n"
+             "Timeout, Breakdown; Ctrl-C ends it.");
   module.def("judge", &judged, py::arg("problem"), py::arg("r"),
              "What the verifier finds of forces r: natural_map_residual, siconos_error, n_open,\n"
              "n_stick, n_slip, …, as records name it (results/README.md).");

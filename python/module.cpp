@@ -1,4 +1,5 @@
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -136,13 +137,39 @@ py::object view(const ProblemArray& array, py::handle owner) {
       array.values);
 }
 
+namespace {
+
+py::array_t<double> array_of(const py::handle& object, const char* name, int most_axes) {
+  py::array array;
+  try {
+    array = py::module_::import("numpy").attr("asarray")(object, py::arg("dtype") = "float64");
+  } catch (py::error_already_set& error) {
+    throw InputError(
+        fmt::format("{}: {} (allowed: numbers)", name, std::string(py::str(error.value()))));
+  }
+  if (object.is_none() || array.ndim() > most_axes)
+    throw InputError(fmt::format("{}: {} (allowed: {})", name,
+                                 object.is_none() ? "None" : fmt::format("{} axes", array.ndim()),
+                                 most_axes == 1 ? "a vector" : "a matrix"));
+  return array;
+}
+
+}  // namespace
+
+Eigen::VectorXd numbers_of(const py::handle& object, const char* name) {
+  const auto array = array_of(object, name, 1);
+  return py::module_::import("numpy").attr("atleast_1d")(array).cast<Eigen::VectorXd>();
+}
+
+Eigen::MatrixXd matrix_of(const py::handle& object, const char* name) {
+  const auto array = array_of(object, name, 2);
+  if (array.ndim() != 2)
+    throw InputError(fmt::format("{}: {} axes (allowed: a matrix)", name, array.ndim()));
+  return array.cast<Eigen::MatrixXd>();
+}
+
 py::object from_json(const Json& json) {
-  if (!json.is_object()) return py::module_::import("json").attr("loads")(json_text(json));
-  py::dict known;
-  for (const auto& [name, value] : json.items())
-    if (!value.is_null())
-      known[py::str(name)] = py::module_::import("json").attr("loads")(json_text(value));
-  return known;
+  return py::module_::import("json").attr("loads")(json_text(json));
 }
 
 Json to_json(const py::handle& object) {

@@ -241,6 +241,8 @@ void bind_problem(py::module_& module) {
       .def(
           "body",
           [](const BoundProblem& self) {
+            if (!self.body()->loads.thermal.empty())
+              throw UsageError(self.name() + ": thermal strain, which these arrays have not");
             return body_arrays_of(*self.body(), self.name() + ": body");
           },
           "All that a displacement method needs: the mesh, compliance_per_MPa, u0_mm, …")
@@ -271,19 +273,21 @@ void bind_problem(py::module_& module) {
           "bodies one row for both.")
       .def(
           "solve",
-          [](std::shared_ptr<BoundProblem> self, const py::object& method, int degree,
-             double timeout, const py::kwargs& settings) {
+          [](std::shared_ptr<BoundProblem> self, const py::object& method,
+             std::optional<int> degree, double timeout, const py::kwargs& settings) {
             return solved(std::move(self), method_of(method, degree), settings_of(settings),
                           timeout);
           },
-          py::arg("method") = "HYBRID", py::kw_only(), py::arg("degree") = 1,
+          py::arg("method") = "HYBRID", py::kw_only(), py::arg("degree") = py::none(),
           py::arg("timeout") = 900.,
           "Solves it by a method: a name of ab.methods() or what @ab.method made. degree: of\n"
           "HYBRID's stresses. timeout: seconds. Further settings by name: target_error (1e-6),\n"
           "tolerance, max_iterations, contact ('newton', 'gauss-seidel', 'anderson', 'admm'),\n"
           "contact_tolerance, threads, stop ('target', 'paper'). Returns a Solution, whose status\n"
           "says how it ended; iterative methods are tightened until their own error estimate is\n"
-          "below target_error. Ctrl-C ends it.")
+          "below target_error. Ctrl-C ends it; a function of yours is not stopped by timeout here, "
+          "but\n"
+          "in bench().")
       .def(
           "judge",
           [](const std::shared_ptr<BoundProblem>& self,

@@ -128,7 +128,8 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
   if (is_ok()) verdict = judge_method_error(asked, std::move(verdict), result);
   const auto* const displacements = solution.as<Displacements>();
   const bool is_by_program = displacements != nullptr && displacements->by_program;
-  if (is_ok() && is_by_program)
+  const bool has_other_elements = is_by_program && displacements->by_program->other_elements;
+  if (is_ok() && is_by_program && !has_other_elements)
     verdict = judge_penetration(result.steps, displacements->by_program->allowed_penetration,
                                 std::move(verdict));
   if (!problem_) return verdict;
@@ -143,7 +144,7 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
   const std::vector<StepResult>* const halves = half_steps(method.degree);
   if (halves != nullptr) result.steps_in_halves = *halves;
   if (is_ok()) verdict = judge_total_error(method, std::move(verdict), result);
-  if (is_ok() && is_by_program && displacements->by_program->other_elements)
+  if (is_ok() && has_other_elements)
     verdict.add(
         "judged by its total error alone: its elements are not the quadratic ones of the mesh");
   if (is_ok()) verdict.add(remark_on_polygons(method, result.polygons, result.of_mesh.total));

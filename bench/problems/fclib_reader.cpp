@@ -221,7 +221,10 @@ contact::Problem read_local(const FclibFile& file, const std::string& place, int
                        file.refuse());
 }
 
-contact::Problem read_global(const FclibFile& file, const std::string& place, int dimension) {
+enum class Until { arrays, condensed };
+
+contact::Problem read_global(const FclibFile& file, const std::string& place, int dimension,
+                             Until until) {
   GlobalArrays arrays;
   const int n = file.whole(place + "/M/m", 1, max_unknowns);
   file.whole(place + "/M/n", n, n);
@@ -231,8 +234,10 @@ contact::Problem read_global(const FclibFile& file, const std::string& place, in
   arrays.H = read_matrix(file, place + "/H/", n, m);
   arrays.f = file.numbers(place + "/vectors/f", n);
   arrays.w = file.numbers(place + "/vectors/w", m);
-  return global_problem(std::move(arrays), read_points(file, place, dimension, m / dimension),
-                        place + "/M", place + "/H", file.refuse());
+  ContactPoints points = read_points(file, place, dimension, m / dimension);
+  if (until == Until::arrays) return {};
+  return global_problem(std::move(arrays), std::move(points), place + "/M", place + "/H",
+                        file.refuse());
 }
 
 // Ours are all called problem.hdf5: they are named after their case, "Mesh0-default".
@@ -243,7 +248,23 @@ std::string name_of(const FclibFile& file, const std::filesystem::path& path) {
   return title.empty() ? path.stem().string() : title;
 }
 
-// libhdf5 crashes on some damaged files: a child process reads them first.
+contact::Problem read(const std::filesystem::path& path, Until until) {
+  const FclibFile file(path);
+  const std::string local = "/fclib_local", global = "/fclib_global";
+  const bool is_local = file.has(local);
+  const std::string& place = is_local ? local : global;
+  if (!file.has(place)) file.fail(local, "is missing", "a group of this name, or /fclib_global");
+  const int dimension = file.whole(place + "/spacedim", 2, 3);
+  for (const char* name : {"/V", "/R", "/G", "/vectors/s", "/vectors/b"})
+    if (file.has(place + name)) file.fail(place + name, "equality constraints", "none");
+  contact::Problem problem =
+      is_local ? read_local(file, place, dimension) : read_global(file, place, dimension, until);
+  problem.name = name_of(file, path);
+  return problem;
+}
+
+// libhdf5 crashes on some damaged files: a child process reads them first. It condenses nothing:
+// CHOLMOD's threads are its parent's, and it would wait for them.
 void try_to_read(const std::filesystem::path& path) {
   constexpr double max_s = 300;
   const auto begun = std::chrono::steady_clock::now();
@@ -251,7 +272,7 @@ void try_to_read(const std::filesystem::path& path) {
     channel.receive();
     std::string why_not;
     try {
-      read_fclib_in_this_process(path);
+      read(path, Until::arrays);
     } catch (const InputError& error) {
       why_not = error.what();
     }
@@ -268,18 +289,7 @@ void try_to_read(const std::filesystem::path& path) {
 }  // namespace
 
 contact::Problem read_fclib_in_this_process(const std::filesystem::path& path) {
-  const FclibFile file(path);
-  const std::string local = "/fclib_local", global = "/fclib_global";
-  const bool is_local = file.has(local);
-  const std::string& place = is_local ? local : global;
-  if (!file.has(place)) file.fail(local, "is missing", "a group of this name, or /fclib_global");
-  const int dimension = file.whole(place + "/spacedim", 2, 3);
-  for (const char* name : {"/V", "/R", "/G", "/vectors/s", "/vectors/b"})
-    if (file.has(place + name)) file.fail(place + name, "equality constraints", "none");
-  contact::Problem problem =
-      is_local ? read_local(file, place, dimension) : read_global(file, place, dimension);
-  problem.name = name_of(file, path);
-  return problem;
+  return read(path, Until::condensed);
 }
 
 contact::Problem read_fclib(const std::filesystem::path& path) {

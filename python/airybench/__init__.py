@@ -39,42 +39,51 @@ if core := _airybench._better_blas_core():
                   "before Python starts")
 
 
-def method(name: str, *, reads: str = "condensed", elements: str = "P2", summary: str = "") -> Callable[[Callable], Method]:
+def method(name: str, *, reads: str = "condensed", elements: str = "P2", degree: int = 1,
+           summary: str = "") -> Callable[[Callable], Method]:
     """Makes a callable a method, for Problem.solve() and bench().
 
     reads: what it gets and returns.
-    condensed: a contact.Problem; returns r, N, of its rows. The rest is HYBRID's.
+    condensed: a contact.Problem; returns r, N, of its rows. The rest is HYBRID's, with stresses of
+    that degree.
     airy: the arrays of Problem.airy_system(); returns x with S x + C_F' l + C_C' l' = q.
     body: the arrays of Problem.body(); returns u, mm: a row x, y per vertex, then per edge, at its
-    middle. Those of other elements than quadratic ones (elements="other") are judged by their total
-    error alone.
+    middle (of linear elements the mean of its ends). Those of other elements than quadratic ones
+    (elements="other") are judged by their total error alone.
     """
     def decorate(function: Callable) -> Method:
-        return _airybench._method(function, name, reads, elements,
+        return _airybench._method(function, name, reads, elements, degree,
                                   summary or (function.__doc__ or name).split("\n")[0])
     return decorate
 
 
-def bench(mesh: str | Iterable[str] = "Mesh0", methods: str | Method | Iterable[str | Method] = (),
+def bench(mesh: str | Iterable[str] | None = None, methods: str | Method | Iterable[str | Method] = (),
           out: str | Path = "results/latest", **options: object) -> pandas.DataFrame:
     """Measures methods on meshes, each case in a process of its own, as the command bench does.
 
-    methods: names, or what @method made; none: those of the paper. options: those of bench, with _
-    for -: scene="scene.json", repetitions=3, adapt="1%", degree=2, fields=True. Records, judged and
-    timed, go to the folder `out`; returned are those of this run, as of read().
+    mesh: None: Mesh0, or what problem="file.hdf5" names. methods: names, or what @method made; none:
+    those of the paper. options: those of bench, with _ for -: scene="scene.json", repetitions=3,
+    adapt="1%", degree=2, fields=True, timeout=10 (seconds; of your functions, too). Records, judged
+    and timed, go to the folder `out`; returned are those of this run, as of read(). The heap is not
+    counted here, and the resident memory contains that of Python.
     """
     def listed(items: object) -> list:
         return [items] if isinstance(items, (str, Path, Method)) else list(items)
     chosen = listed(methods)
-    arguments = [f"--mesh={','.join(map(str, listed(mesh)))}", f"--out={out}"]
+    names = [item.name if isinstance(item, Method) else str(item) for item in chosen]
+    if len(set(names)) < len(names):
+        raise InputError(f"methods: {', '.join(names)} (allowed: every name once)")
+    arguments = [f"--out={out}"]
+    if mesh is not None or "problem" not in options:
+        arguments.append(f"--mesh={','.join(map(str, listed('Mesh0' if mesh is None else mesh)))}")
     if chosen:
-        arguments.append("--method=" + ",".join(m.name if isinstance(m, Method) else m for m in chosen))
+        arguments.append("--method=" + ",".join(names))
     for key, value in options.items():
         option = "--" + key.replace("_", "-")
         arguments += [option] * bool(value) if isinstance(value, bool) else [f"{option}={value}"]
-    names = _airybench._bench(arguments, [m for m in chosen if isinstance(m, Method)])
+    cases = _airybench._bench(arguments, [m for m in chosen if isinstance(m, Method)])
     table = read(out)
-    return table[table.case_name.isin(names)].reset_index(drop=True)
+    return table[table.case_name.isin(cases)].reset_index(drop=True)
 
 
 def read(results: str | Path) -> pandas.DataFrame:

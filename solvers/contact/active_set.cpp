@@ -149,7 +149,8 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     if (linear.converged) part.start = of_linear_tractions(problem.points, linear.F_C);
     steps = linear.active_set_steps;
   }
-  for (int next = first_sweeps;; next *= 10) {
+  for (int next = first_sweeps;; next = 10 * std::min(next, options.max_iterations)) {
+    deadline.check("the contact law");
     part.max_iterations = std::min(next, options.max_iterations - sweeps);
     const ContactResult swept = problem.bodies
                                     ? solve_contact_by_admm(problem, part, deadline)
@@ -162,12 +163,13 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     // With a dense D more sweeps, where any are left, are cheaper and mostly do.
     const bool sweeps_again =
         problem.is_dense() && next == first_sweeps && sweeps < options.max_iterations;
-    if (!result.converged && !problem.bodies && !sweeps_again && result.F_C.allFinite())
+    if (!result.converged && !problem.bodies && !sweeps_again && std::isfinite(result.F_C.norm()))
       finish_by_proximal_points(problem, options, deadline, result);
     steps += result.active_set_steps;
     if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)
       best = std::move(result);
-    if (best.converged || sweeps >= options.max_iterations || !swept.F_C.allFinite()) break;
+    const bool diverged = !std::isfinite(swept.F_C.norm());
+    if (best.converged || sweeps >= options.max_iterations || diverged) break;
   }
   best.iterations = sweeps;
   best.active_set_steps = steps;

@@ -18,6 +18,7 @@ void finish_by_proximal_points(const contact::Problem& problem, const ContactOpt
   for (int since_halved = 0, ended = 0;
        result.natural_map_residual > options.tolerance && since_halved <= patience;
        ++since_halved) {
+    deadline.check("the proximal points of the contact law");
     for (Eigen::Index i = 0; i < F.size(); ++i)
       (problem.is_dense() ? shifted.D(i, i) : shifted.rows.coeffRef(i, i)) += (next_s - s) * mean;
     s = next_s;

@@ -10,6 +10,8 @@ import scipy.sparse.linalg
 
 import airybench as ab
 
+DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data")
+
 
 @ab.method("MINE")
 def mine(c):
@@ -126,7 +128,21 @@ class MethodTest(unittest.TestCase):
             problem.solve(raises)
         with self.assertRaisesRegex(ab.InputError, "r: 2 numbers"):
             problem.solve(short)
+        for returned, words in ((None, "r: None"), ([[1.0]], "r: 2 axes"), ("text", "r: could not convert")):
+            with self.subTest(words), self.assertRaisesRegex(ab.InputError, words):
+                problem.solve(ab.method("ODD")(lambda c, value=returned: value))
+        with self.assertRaisesRegex(ab.InputError, r"u: \(3, 2\)"):
+            problem.solve(ab.method("FEW", reads="body")(lambda body: np.zeros((3, 2))))
         self.assertEqual(problem.solve().status, "ok")
+
+    def test_a_degree_is_honoured_or_refused(self) -> None:
+        problem = ab.Problem("Mesh0")
+        self.assertEqual(problem.solve(ab.method("TWO", degree=2)(lambda c: ab.contact.solve(c).r)).degree, 2)
+        for method in (mine, "3STEPD", "P3"):
+            with self.assertRaisesRegex(ab.InputError, "degree: 4"):
+                problem.solve(method, degree=4)
+        with self.assertRaisesRegex(ab.InputError, "degree"):
+            ab.method("AIRY2", reads="airy", degree=2)(len)
 
 
 class BenchTest(unittest.TestCase):
@@ -155,3 +171,15 @@ class BenchTest(unittest.TestCase):
             self.assertLessEqual(table.error_total.min(), 0.05)
             with self.assertRaisesRegex(ab.InputError, "memory_limit"):
                 ab.bench("Mesh0", "HYBRID", out=out, memory_limit=100)
+            with self.assertRaisesRegex(ab.InputError, "every name once"):
+                ab.bench("Mesh0", [mine, "MINE"], out=out)
+
+    def test_contact_problems_of_files(self) -> None:
+        with tempfile.TemporaryDirectory() as out:
+            file = os.path.join(DATA, "fuzz/fclib/good-global")
+            problem = os.path.join(out, "bodies.hdf5")
+            with open(file, "rb") as given, open(problem, "wb") as copy:
+                copy.write(given.read())
+            table = ab.bench(problem=problem, methods=[mine], out=os.path.join(out, "out"), repetitions=1)
+            self.assertEqual(table.method.tolist(), ["MINE"])
+            self.assertEqual(table.status.tolist(), ["ok"])

@@ -166,6 +166,12 @@ class ProblemTest(unittest.TestCase):
                             (lambda: ab.contact.Problem(np.eye(4), np.ones(4), -0.1), "mu"),
                             (lambda: ab.contact.solve(c, "nwton"), "nwton"),
                             (lambda: ab.contact.judge(c, np.ones(3)), "r: 3 numbers"),
+                            (lambda: ab.contact.judge(c, np.full(c.q.size, np.nan)), "r: not finite"),
+                            (lambda: ab.contact.Problem(np.eye(4), np.ones(4), 0.1, components=0), "components: 0"),
+                            (lambda: ab.contact.Problem(np.eye(4), np.ones(4), [[0.1]]), "mu: 2 axes"),
+                            (lambda: ab.contact.Problem(np.eye(4), None, 0.1), "q: None"),
+                            (lambda: ab.contact.Problem(np.ones(4), np.ones(4), 0.1), "W: 1 axes"),
+                            (lambda: ab.contact.solve(c, tolerance=0), "tolerance: 0"),
                             (lambda: ab.contact.read("absent.hdf5"), "absent.hdf5"),
                             (lambda: ab.read("absent"), "absent"),
                             (lambda: ab.bench(mesh="Mesh0", nonsense=1), "nonsense"),
@@ -224,6 +230,18 @@ class ContactTest(unittest.TestCase):
                 self.assertTrue((found[0][::components] >= 0).all())
                 np.testing.assert_allclose(ab.contact.solve(c).u, u, atol=1e-9)
                 self.assertLess(ab.contact.judge(c, found[0])["natural_map_residual"], 1e-10)
+
+    def test_an_indefinite_matrix_ends(self) -> None:
+        w = np.eye(8) - 0.9 * (np.ones((8, 8)) - np.eye(8))
+        c = ab.contact.Problem(w, np.array([-.4, .2, .3, .1, -.6, .5, -.2, .4]), 0.3)
+        self.assertFalse(ab.contact.solve(c, "newton").converged)
+
+    def test_a_file_is_read_again(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "bodies.hdf5")
+            file.write_bytes((Path(__file__).resolve().parents[1] / "data/fuzz/fclib/good-global").read_bytes())
+            first, second = ab.contact.read(file), ab.contact.read(file)
+        np.testing.assert_array_equal(first.q, second.q)
 
     def test_a_start_is_taken(self) -> None:
         c = ab.Problem("Mesh1", friction=0.3).condensed()
