@@ -150,7 +150,7 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     steps = linear.active_set_steps;
   }
   for (int next = first_sweeps;; next = 10 * std::min(next, options.max_iterations)) {
-    deadline.check("the contact law");
+    deadline.check("the active sets of the contact law");
     part.max_iterations = std::min(next, options.max_iterations - sweeps);
     const ContactResult swept = problem.bodies
                                     ? solve_contact_by_admm(problem, part, deadline)
