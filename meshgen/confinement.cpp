@@ -76,7 +76,8 @@ bool write_only_in(const std::filesystem::path& folder) {
       LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
       LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO | LANDLOCK_ACCESS_FS_MAKE_BLOCK |
       LANDLOCK_ACCESS_FS_MAKE_SYM | (version >= 2 ? refer : 0);
-  const landlock_ruleset_attr handled = {.handled_access_fs = all};
+  landlock_ruleset_attr handled = {};  // newer headers have more members
+  handled.handled_access_fs = all;
   const int rules = static_cast<int>(
       syscall(SYS_landlock_create_ruleset, &handled, sizeof handled.handled_access_fs, 0));
   if (rules < 0) return false;
