@@ -4,6 +4,7 @@
 
 #include "assembly/elements/curved_side.hpp"
 #include "assembly/elements/edge_forces.hpp"
+#include "assembly/elements/equilibrium_element.hpp"
 #include "assembly/elements/stress_degrees.hpp"
 #include "support/wide.hpp"
 
@@ -113,17 +114,21 @@ int degree_of(const StressCoefficients& stress) {
   return degree;
 }
 
-double curved_product(const TriangleVertices& v, const CurvedSides& curves,
+double curved_product(const TriangleVertices& v, double area_mm2, const CurvedSides& curves,
                       const StressCoefficients& sigma, const StressCoefficients& tau,
                       const Eigen::Matrix3d& C) {
   const int degree = degree_of(sigma);
   const Eigen::Index n = bernstein_count(degree);
+  const Eigen::MatrixXd of_straight =
+      std::sqrt(2 * area_mm2) *
+      Eigen::Map<const Eigen::MatrixXd>(reference_matrices<double>(degree).mass_root, n, n);
   double sum = 0;
   for (int t = 0; t < 3; ++t) {
-    const std::vector<Eigen::Vector2d> chord = {v.col(t), v.col((t + 1) % 3)};
-    const CurvedSide<double> side(curves[t].is_straight() ? SideCurve{chord, {}, {}} : curves[t],
-                                  degree);
-    const Eigen::MatrixXd root = side.mass_root(v.rowwise().mean()).transpose();
+    const Eigen::MatrixXd root =
+        (curves[t].is_straight()
+             ? of_straight
+             : CurvedSide<double>(curves[t], degree).mass_root(v.rowwise().mean()))
+            .transpose();
     const auto weighted = [&](const StressCoefficients& stress) {
       return Eigen::Matrix3Xd(stress.middleCols(n * t, n).lazyProduct(root));
     };
@@ -138,8 +143,8 @@ double stress_product(const Problem& problem, int triangle, const StressCoeffici
                       const StressCoefficients& tau) {
   const int degree = degree_of(sigma);
   if (const auto curves = problem.curves_of(triangle, degree))
-    return curved_product(problem.vertices_of(triangle), *curves, sigma, tau,
-                          problem.compliance_of(triangle));
+    return curved_product(problem.vertices_of(triangle), problem.area_mm2(triangle), *curves, sigma,
+                          tau, problem.compliance_of(triangle));
   return with_degree(degree, [&](auto k) {
     return product<k>(sigma.data(), tau.data(), problem.area_mm2(triangle),
                       problem.compliance_of(triangle));

@@ -42,6 +42,7 @@ const std::map<std::string_view, Command> commands = {
     {"merge", airybench::merge_command},
     {"new-external", airybench::new_external_command},
     {"new-scene", airybench::new_scene_command},
+    {"profile", airybench::profile_command},
     {"replay", airybench::replay_command},
     {"solve", airybench::solve_command},
     {"track", airybench::track_command},

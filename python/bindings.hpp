@@ -18,9 +18,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/measure/environment.hpp"
 #include "bench/measure/judge.hpp"
 #include "bench/problems/problem_arrays.hpp"
 #include "bench/run/adaptive_loop.hpp"
+#include "solvers/base/blas_library.hpp"
 
 namespace airybench::python {
 
@@ -98,6 +100,17 @@ class Interruptible {
 
  private:
   bool has_signal_ = false;
+};
+
+// Threads of a solve while it lives, those of NumPy's BLAS, too.
+class Threads {
+ public:
+  explicit Threads(int threads) { set_threads(threads); }
+  ~Threads() { set_blas_threads(former_); }
+  Threads(const Threads&) = delete;
+
+ private:
+  int former_ = blas_threads();
 };
 
 // What C++ writes to standard error as notes while it lives becomes Python's warnings.

@@ -148,6 +148,7 @@ std::shared_ptr<BoundLevel> next_level(Levels& levels) {
   Interruptible interruptible;
   std::optional<AdaptiveLevel> level;
   {
+    const Threads threads(levels.settings.threads);
     const py::gil_scoped_release release;
     level = levels.loop.next();
   }

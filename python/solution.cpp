@@ -4,14 +4,12 @@
 
 #include <chrono>
 
-#include "bench/measure/environment.hpp"
 #include "bench/measure/part_answer.hpp"
 #include "bench/measure/point_locator.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "python/bindings.hpp"
-#include "solvers/base/blas_library.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
@@ -145,11 +143,7 @@ BoundSolution solved(std::shared_ptr<BoundProblem> problem, Method method, CaseS
   if (!why.empty()) throw UsageError(fmt::format("{}/{}: {}", problem->name(), method.name, why));
   BoundSolution answer{std::move(problem), std::move(method), settings};
   Interruptible interruptible;
-  struct BlasThreads {  // those of NumPy, too
-    explicit BlasThreads(int threads) { set_threads(threads); }
-    ~BlasThreads() { set_blas_threads(former); }
-    int former = blas_threads();
-  } threads(settings.threads);
+  const Threads threads(settings.threads);
   {
     const py::gil_scoped_release release;
     const auto system = assemble(answer.method, answer.problem->body());

@@ -1,6 +1,7 @@
 // The templates of curved_side.hpp and curved_element.hpp, to be instantiated for another scalar.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -45,6 +46,18 @@ struct GaussPoints {
   }
 };
 
+// Of curves of so many parts at the q-th of n Gauss points.
+template <typename Scalar, int n>
+const LagrangeBasis<Scalar>& basis_at(int parts, int q) {
+  static const auto bases = [] {
+    std::vector<LagrangeBasis<Scalar>> all;
+    for (int i = 1; i <= SideCurve::max_parts; ++i)
+      for (const Scalar& xi : GaussPoints<Scalar, n>::get().at) all.emplace_back(i, xi);
+    return all;
+  }();
+  return bases.at(static_cast<std::size_t>((parts - 1) * n + q));
+}
+
 // Columns: the normal and its tangent.
 template <typename Scalar>
 Eigen::Matrix2<Scalar> frame_from(const Eigen::Vector2<Scalar>& direction) {
@@ -59,6 +72,11 @@ Eigen::Matrix2<Scalar> frame_from(const Eigen::Vector2<Scalar>& direction) {
 
 template <typename Scalar>
 CurvePoint<Scalar>::CurvePoint(const SideCurve& curve, const Scalar& xi)
+    : CurvePoint(curve, [&](int parts) { return LagrangeBasis<Scalar>(parts, xi); }) {}
+
+template <typename Scalar>
+template <typename Basis>
+CurvePoint<Scalar>::CurvePoint(const SideCurve& curve, const Basis& basis_of)
     : frame(Eigen::Matrix2<Scalar>::Identity()) {
   using Vector = Eigen::Vector2<Scalar>;
   const auto sum = [](std::span<const Eigen::Vector2d> values, const std::vector<Scalar>& weight) {
@@ -67,11 +85,11 @@ CurvePoint<Scalar>::CurvePoint(const SideCurve& curve, const Scalar& xi)
       result += weight[i] * values[i].template cast<Scalar>();
     return result;
   };
-  const LagrangeBasis<Scalar> along(static_cast<int>(curve.points_mm.size()) - 1, xi);
+  const LagrangeBasis<Scalar>& along = basis_of(static_cast<int>(curve.points_mm.size()) - 1);
   at = sum(curve.points_mm, along.value);
   tangent = sum(curve.points_mm, along.derivative);
   if (curve.law_normals.empty()) return;
-  const LagrangeBasis<Scalar> law(static_cast<int>(curve.law_normals.size()) - 1, xi);
+  const LagrangeBasis<Scalar>& law = basis_of(static_cast<int>(curve.law_normals.size()) - 1);
   frame = curved_formulas::frame_from<Scalar>(sum(curve.law_normals, law.value));
 }
 
@@ -87,12 +105,14 @@ CurvedSide<Scalar>::CurvedSide(const SideCurve& curve, int degree)
     fixed.push_back(curved_formulas::frame_from<Scalar>(normal.cast<Scalar>()).transpose());
   Matrix pairing = Matrix::Zero(2 * count, 2 * count);
   for (int q = 0; q < points; ++q) {
-    const CurvePoint<Scalar> point(curve, xi(q));
+    const CurvePoint<Scalar> point(curve, [q](int parts) -> const LagrangeBasis<Scalar>& {
+      return curved_formulas::basis_at<Scalar, points>(parts, q);
+    });
     at_[q] = point.at;
     normal_[q] = Vector(point.tangent.y(), -point.tangent.x());
     set_test(q);
     density_[q].resize(2, 2 * count);
-    Matrix along(2, 2 * count);  // B_j of x and of y
+    OfPoint along(2, 2 * count);  // B_j of x and of y
     for (int j = 0; j < count; ++j) {
       const Scalar B = bernstein_polynomial(degree, j, xi(q));
       along.middleCols(2 * j, 2) = B * Eigen::Matrix2<Scalar>::Identity();

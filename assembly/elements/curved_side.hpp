@@ -32,11 +32,13 @@
 #include <span>
 
 #include "assembly/elements/small_cholesky.hpp"
+#include "assembly/elements/stress_degrees.hpp"
 #include "support/wide.hpp"
 
 namespace airybench {
 
 struct SideCurve {
+  static constexpr int max_parts = 7;  // points_mm and law_normals have at most one more
   // At equidistant ξ from 0 to 1, as many as a polynomial needs; none: a straight side.
   std::span<const Eigen::Vector2d> points_mm;
   // n of a contact law at equidistant ξ from 0 to 1, and of the k + 1 frames R_j; none: there is
@@ -51,6 +53,9 @@ using CurvedSides = std::array<SideCurve, 3>;  // of a triangle
 template <typename Scalar>
 struct CurvePoint {
   CurvePoint(const SideCurve& curve, const Scalar& xi);
+  // basis_of(parts): the LagrangeBasis at ξ.
+  template <typename Basis>
+  CurvePoint(const SideCurve& curve, const Basis& basis_of);
   Eigen::Vector2<Scalar> at, tangent;
   Eigen::Matrix2<Scalar> frame;
 };
@@ -97,14 +102,17 @@ class CurvedSide {
   Eigen::VectorX<Scalar> bernstein(const Vector& centroid, int q, const Scalar& rho) const;
 
  private:
+  using OfPoint = Eigen::Matrix<Scalar, 2, Eigen::Dynamic, Eigen::ColMajor, 2,
+                                2 * (highest_stress_degree + 2)>;  // k + 1: of displacements
+
   void set_test(int q);
   Eigen::VectorX<Scalar> tested(const Eigen::Matrix2X<Scalar>& field) const;  // m
 
   int degree_;
   Vector a_, b_;
   std::array<Vector, points> at_, normal_;
-  std::array<Matrix, points> test_;      // 2 × 2(k + 1), columns T_i: m_i = ∫ T_i·q dξ
-  std::array<Matrix, points> density_;   // q = density F
+  std::array<OfPoint, points> test_;     // 2(k + 1) columns T_i: m_i = ∫ T_i·q dξ
+  std::array<OfPoint, points> density_;  // q = density F
   Eigen::PartialPivLU<Matrix> pairing_;  // P
   Matrix pairing_transposed_;
 };

@@ -140,6 +140,7 @@ std::optional<CurvedSides> Problem::curves_of(int triangle, int degree) const {
   return curves;
 }
 
+static_assert(SideCurve::max_parts >= std::max(EdgeCurve::max_degree, ContactNormals::max_parts));
 SideCurve Problem::curve_of(int boundary_row, int degree) const {
   const BoundaryEdge& edge = mesh.boundary[boundary_row];
   SideCurve curve{edge.curve.points_mm, {}, {}};

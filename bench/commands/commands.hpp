@@ -18,6 +18,7 @@ int list_command(int argc, const char* const* argv);
 int merge_command(int argc, const char* const* argv);
 int new_external_command(int argc, const char* const* argv);
 int new_scene_command(int argc, const char* const* argv);
+int profile_command(int argc, const char* const* argv);
 int replay_command(int argc, const char* const* argv);
 int solve_command(int argc, const char* const* argv);
 int run_command(int argc, const char* const* argv);  // `bench` without a command

@@ -34,6 +34,7 @@ Other commands (each has --help)
   {bench} export DIR         tables for papers; Google Benchmark's JSON, CSV
   {bench} export-problem     a problem's matrices, for your own solvers
   {bench} merge DIR...       the shards of a run, joined
+  {bench} profile MODEL      where the time of the adaptive loop goes
   {bench} replay RECORD      one recorded case, run again
 
 Everything after "--" goes to Google Benchmark.

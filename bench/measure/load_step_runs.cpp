@@ -42,7 +42,7 @@ void raise(const std::optional<T>& other, std::optional<T>& largest) {
 }
 
 void take_step(bool is_first, const std::string& prefix, const Solution& step, Solution& path) {
-  for (const Stage stage : all_stages) add(step.times[stage], path.times[stage]);
+  add_times(step.times, path.times);
   for (const MemoryOwner owner : all_memory_owners)
     path.storage[owner] = std::max(path.storage[owner], step.storage[owner]);
   path.file_bytes = std::max(path.file_bytes, step.file_bytes);
@@ -76,6 +76,10 @@ void hand_over(Solution& path, Solution& last) {
 }
 
 }  // namespace
+
+void add_times(const StageTimes& more, StageTimes& sum) {
+  for (const Stage stage : all_stages) add(more[stage], sum[stage]);
+}
 
 Solution answer_of(const Reference& reference) {
   Solution answer;

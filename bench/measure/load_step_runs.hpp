@@ -47,6 +47,8 @@ struct JudgedStep {
 Solution solve_path(const Solve& solve, ContactSystem& system, const RunControl& control,
                     const VisitStep& visit, double& watched_s);
 
+void add_times(const StageTimes& more, StageTimes& sum);
+
 // "load step 3 of 20: "; empty for a path of one step.
 std::string step_prefix(std::int64_t step, const Problem& first);
 

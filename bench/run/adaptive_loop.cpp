@@ -55,9 +55,15 @@ AdaptiveLoop::AdaptiveLoop(Scene scene, Mesh mesh, Method method, AdaptiveSettin
 std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   if (reached() || !ended_.empty()) return {};
   const auto start = std::chrono::steady_clock::now();
-  if (!history_.empty() && !refine()) return {};
+  AdaptiveLevel level;
+  if (!history_.empty()) {
+    const SecondsInto timer(level.times.refine_s);
+    if (!refine()) return {};
+  }
+  const auto posing = std::chrono::steady_clock::now();
   const auto problem = std::make_shared<const Problem>(pose(scene_, mesh_));
   ContactSystem system = contact_system(problem, method_.degree);
+  level.times.pose_s = seconds_since(posing);
 
   RunControl control;
   control.deadline = Deadline::after(settings_.timeout_s);
@@ -66,14 +72,17 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   if (settings_.memory_limit_bytes)
     limit.emplace(heap::live_bytes() + *settings_.memory_limit_bytes);
   TotalError error;
-  AdaptiveLevel level;
+  const auto solving = std::chrono::steady_clock::now();
   solve_load_steps(method_.solve, system, control,
                    [&](int step, const ContactSystem& posed, const Solution& answer) {
+                     const SecondsInto timer(level.times.estimate_s);
                      limit.reset();
+                     add_times(answer.times, level.times.stages);
                      judge_step(step, *problem, posed, answer, error);
                      if (settings_.keeps_answers) level.answers.push_back({posed, answer});
                    });
   limit.reset();
+  level.times.solve_s = seconds_since(solving) - level.times.estimate_s;
   if (!ended_.empty()) return {};
   time_s_ += seconds_since(start);
   level.mesh = mesh_;

@@ -49,13 +49,21 @@ struct StepAnswer {
   Solution solution;
 };
 
+// Seconds of one level; of its load steps the sums.
+struct LevelTimes {
+  double refine_s = 0, pose_s = 0;  // the mesh of this level; problem and system on it
+  double solve_s = 0, estimate_s = 0;
+  StageTimes stages = {};  // of solve_s
+};
+
 struct AdaptiveLevel {
   Mesh mesh;
-  int number = 0;                        // 0: the initial mesh
-  int unknowns = 0;                      // n_φ
-  std::optional<double> error;           // TotalError::relative(); empty: see why_ended()
-  std::optional<AdaptGoal> goal;         // the last that it, and no earlier level, reaches
-  double time_s = 0;                     // of all levels so far
+  int number = 0;                 // 0: the initial mesh
+  int unknowns = 0;               // n_φ
+  std::optional<double> error;    // TotalError::relative(); empty: see why_ended()
+  std::optional<AdaptGoal> goal;  // the last that it, and no earlier level, reaches
+  double time_s = 0;              // of all levels so far
+  LevelTimes times = {};
   std::vector<double> parts = {};        // of the squared error, per triangle
   std::vector<StepAnswer> answers = {};  // if they are kept
 };

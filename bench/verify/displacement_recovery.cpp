@@ -137,7 +137,11 @@ void set_inner(const Problem& problem, const Triangle& element, const CurvedTrac
       });
 }
 
-// Of the Jacobi step: λmax grows like k + 3 (4.3, 5.1, 6.1, 7.2 on right triangles, ν = 0.3).
+// Jacobi steps come in pairs. λmax grows like k + 3 (4.3, 5.1, 6.1, 7.2 on right triangles, ν =
+// 0.3): the first of a pair is for the highest modes, which the second, for those in the middle,
+// lets grow.
+constexpr int jacobi_pairs = 3;
+constexpr double first_damping(int k) { return 1.2 / (k + 3); }
 constexpr double damping(int k) { return 2.4 / (k + 3); }
 
 // Neighbours hold one another, so that single coefficients hardly move: in triangles whose height
@@ -192,11 +196,15 @@ class Recovery {
     }
     w_.array().rowwise() /= stiffness_.transpose().array();
     constraints_.apply(stiffness_, w_);
-    stiffness_ /= damping(stress.degree());
   }
 
   DisplacementField displacement() {
-    w_ = step().w;
+    const double first = first_damping(stress_.degree());
+    w_ = step(first).w;
+    for (int pair = 1; pair < jacobi_pairs; ++pair) {
+      w_ = step().w;
+      w_ = step(first).w;
+    }
     if (need_vertex_stars(problem_)) {
       const std::vector<bool> held = constraints_.nodes();
       VertexStars stars(problem_, element_, traces_, own_, held);
@@ -208,7 +216,9 @@ class Recovery {
   }
 
  private:
-  JacobiStep step() const {
+  JacobiStep step() const { return step(damping(stress_.degree())); }
+  JacobiStep step(double damping) const {
+    const Eigen::VectorXd stiffness = stiffness_ / damping;
     JacobiStep result;
     result.gradient = Eigen::Matrix2Xd::Zero(2, w_.cols());
     result.gain_Nmm = Eigen::VectorXd::Zero(w_.cols());
@@ -228,19 +238,19 @@ class Recovery {
                       for (const int node : nodes)
                         result.gain_Nmm(node) += distance / element_.nodes;
                   });
-    result.w = w_.array() - result.gradient.array().rowwise() / stiffness_.transpose().array();
-    constraints_.apply(stiffness_, result.w);
+    result.w = w_.array() - result.gradient.array().rowwise() / stiffness.transpose().array();
+    constraints_.apply(stiffness, result.w);
     result.gain_Nmm.array() +=
-        stiffness_.array() / 2 * (result.w - w_).colwise().squaredNorm().transpose().array();
+        stiffness.array() / 2 * (result.w - w_).colwise().squaredNorm().transpose().array();
     return result;
   }
 
-  // Zones, while there is more to gain than a share of the distance, or this is of the size of the
-  // energy, which a step between slivers may not see. What is true error stays in stiff triangles,
-  // too: a zone is worth another one only if it has lowered the distance by far. The last step puts
-  // w behind the walls. A millionth of ‖σ‖ is not worth it.
+  // The last Jacobi step. Before it zones, while it would gain more than a share of the distance,
+  // or this is of the size of the energy, which a step between slivers may not see. What is true
+  // error stays in stiff triangles, too: a zone is worth another one only if it has lowered the
+  // distance by far. The last step puts w behind the walls. A millionth of ‖σ‖ is not worth it.
   void improve_where_needed() {
-    constexpr double share = 0.15, far = 10, large = 0.25, negligible = 1e-12;
+    constexpr double share = 0.06, far = 10, large = 0.25, negligible = 1e-12;
     constexpr int max_zones = 4;
     const double energy_Nmm = stress_norm_squared(problem_, stress_) / 2;
     JacobiStep now = step();
@@ -254,8 +264,8 @@ class Recovery {
       is_needed = is_better && zones < max_zones && far * next.distance_Nmm < now.distance_Nmm &&
                   next.gain_Nmm.sum() > share * next.distance_Nmm;
       if (is_better) now = std::move(next);
-      if (!is_needed) w_ = std::move(now.w);
     }
+    w_ = std::move(now.w);
   }
 
   // All nodes but those where together hardly anything is to be gained, and two rings of triangles.
@@ -300,7 +310,7 @@ class Recovery {
   DisplacementConstraints constraints_;
   const StressField& stress_;
   DisplacementField w_;        // its traces
-  Eigen::VectorXd stiffness_;  // per node, of a Jacobi step
+  Eigen::VectorXd stiffness_;  // per node
 };
 
 }  // namespace

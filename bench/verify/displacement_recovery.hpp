@@ -12,11 +12,11 @@
 // satisfies u_n ≤ g0, also on curved faces and between the points of its quadratic gap: a second
 // quadratic stays below the whole wall (wall_gap.hpp).
 //
-// One damped Jacobi step on ½ e² and the same treatment of Γ_D and Γ_C follow. For ν near ½, two
-// sweeps over vertex stars (vertex_stars.hpp) improve all unconstrained coefficients. Then the
-// recovery asks what a further step would gain. Where that is much, as in thin triangles, whose
-// nodes hold one another, it solves for a zone at once (zone_recovery.hpp). Coefficients inside
-// triangles are those that minimise e at last.
+// Three pairs of damped Jacobi steps on ½ e² and the same treatment of Γ_D and Γ_C follow. For ν
+// near ½, two sweeps over vertex stars (vertex_stars.hpp) improve all unconstrained coefficients
+// before the last step, which shows what more there is to gain. Where that is much, as in thin
+// triangles, whose nodes hold one another, the recovery solves for a zone (zone_recovery.hpp).
+// Coefficients inside triangles are those that minimise e at last.
 //
 // e over that of P_{k+1}'s displacement, the least one without friction (measured): at most 1.14 on
 // triangles of any shape as meshers and bisection make them; 1.07 between bodies whose vertices do

@@ -344,7 +344,7 @@ TEST(Command, PrintedCommandsBeginWithWhatTheUserStarted) {
   const std::string typed = testing::bench_executable().string(), list = bench.run("--help").out;
   for (const char* command : {"", "advise ", "check ", "claims ", "compare ", "explain ", "export ",
                               "export-problem ", "list ", "merge ", "new-external ", "new-scene ",
-                              "replay ", "solve ", "track ", "validate "}) {
+                              "profile ", "replay ", "solve ", "track ", "validate "}) {
     EXPECT_NE(list.find("\n  " + typed + " " + command), std::string::npos) << command;
     const std::string asked = std::string(command) + "--help";
     for (const auto& [before, called] :
@@ -357,6 +357,14 @@ TEST(Command, PrintedCommandsBeginWithWhatTheUserStarted) {
         EXPECT_EQ(help.find(left), std::string::npos) << help;
     }
   }
+}
+
+TEST(Command, TheLoopIsProfiledByLevelAndPhase) {
+  const std::string out =
+      BenchCommand().expect_ok("profile Mesh0 --error=2% --degree=2 --repetitions=2").out;
+  for (const char* part :
+       {"n_phi 761", "\nrefine ", "\nfactor ", "\nestimate ", "\nall levels: ", "\npage faults: "})
+    EXPECT_NE(out.find(part), std::string::npos) << part << " in " << out;
 }
 
 TEST(Command, TheListIsComplete) {

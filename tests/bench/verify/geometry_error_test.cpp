@@ -98,7 +98,7 @@ TEST(GeometryError, MakesTheTotalErrorOfRoundBodiesTheirsAndFallsAsChordsGetShor
 TEST(GeometryError, OfPolygonsDoesNotVanish) {
   Mesh mesh = small_ring(20, 3, inner, outer);
   const Judged coarse = judged(mesh, 2);
-  for (int k = 0; k < 2; ++k) mesh = uniformly_refined(mesh);
+  for (int k = 0; k < 3; ++k) mesh = uniformly_refined(mesh);
   const Judged fine = judged(mesh, 2);
   EXPECT_GT(fine.total, fine.truth);
   EXPECT_GT(fine.total, coarse.total / 2);
