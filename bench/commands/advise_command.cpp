@@ -245,7 +245,7 @@ std::string ties_of(const std::vector<Advice>& rows, double error) {
 
 std::string table_of(const std::vector<Advice>& rows) {
   std::vector<std::vector<std::string>> cells = {
-      {"mesh", "method", "n_phi", "error total", "time", "adapted in", "heap", "basis"}};
+      {"mesh", "method", "n_phi", "error total", "time", "adaptive loop", "heap", "basis"}};
   for (const auto& [row, basis, command] : rows) {
     const bool has_basis = row.status == Status::ok || row.status == Status::skipped;
     cells.push_back({row.mesh, row.method, std::to_string(row.n_phi.value_or(0)),

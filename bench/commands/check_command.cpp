@@ -17,7 +17,7 @@ namespace airybench {
 namespace {
 
 constexpr const char* check_footer = R"(
-The cases are those of {bench} --study=check, and one without a solution (docs/external-solvers.md).
+The cases are those of {bench} --study=check, and one without a solution (docs/your-program.md).
 
 Exit status  0  every case passes
              1  some case does not

@@ -68,7 +68,7 @@ std::string claims_markdown(const std::vector<Claim>& claims) {
 int claims_command(int argc, const char* const* argv) {
   std::filesystem::path folder, out;
   std::string stop = "target";
-  CLI::App app("The paper's sentences on time and memory, held against the records of a run.",
+  CLI::App app("The paper's claims on time and memory, tested against the records of a run.",
                "{bench} claims");
   app.footer(claims_footer);
   app.add_option("DIR", folder, "folder with records.jsonl")->required();

@@ -23,7 +23,7 @@ namespace {
 constexpr const char* merge_footer = R"(
 The records must be of the same kind of machine (CPU model and number), of the same sources, compiler,
 libraries, threads, tolerances and limits, and of one plan; each case may be there once, and every case of the plan must be
-there. What is refused is named, and nothing is written then.
+there. An error names what differs; then nothing is written.
 
 With --runs the folders are whole runs of different plans, which may differ in limits and repetitions, too; no case
 may be there twice, and every plan must be complete.

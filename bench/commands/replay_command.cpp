@@ -24,7 +24,7 @@ RECORD is FOLDER:CASE or FOLDER:LINE, as in results/latest:Mesh0/default/3STEPD;
 name is written \:. The mesh must be the file that the record was measured on, and this program the one that measured it.
 
 Exit status  0  the same status, iterations and contact states as recorded
-             1  something of these is another
+             1  one of these differs
              2  wrong usage, another mesh, another program: one line on standard error
 )";
 

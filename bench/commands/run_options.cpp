@@ -60,7 +60,7 @@ Examples
 )";
 
 constexpr const char* explain_footer = R"(
-Options are those of a run; with --dry-run also what it will take.
+Options are those of a run; --dry-run adds a forecast of time and memory.
 
 Examples
   {bench} explain --mesh=Mesh0
@@ -97,9 +97,10 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
   add_files(app, "--problem", options.run.problems,
             "instead of meshes and scenes: contact problems, files (FCLIB, Siconos' .dat), folders "
             "or globs, by every contact solver (CONDENSED: newton) or --contact");
-  app.add_option("--adapt", texts.adapt,
-                 "GOALS[,levels=last][,by=METHOD][,marking=SHARE]: refine where the error is, "
-                 "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");
+  app.add_option(
+      "--adapt", texts.adapt,
+      "GOALS[,levels=last][,by=METHOD][,marking=SHARE]: refine where the error is, until "
+      "1% or 50000 unknowns; several goals in turn (docs/adaptive-meshes.md)");
   app.option_defaults()->group("By which methods");
   app.add_option("--degree", texts.degree,
                  fmt::format("1 to {}, or auto: of HYBRID's stresses, on the levels of --adapt and "
@@ -111,14 +112,14 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
       "programs HYBRID");
   add_files(app, "--external", options.run.externals,
             "declarations of other programs, files or globs: methods EXTERNAL:name "
-            "(docs/external-solvers.md)");
-  app.add_option("--contact", texts.contact,
-                 "what solves the condensed contact problem (docs/methods.md); gauss-seidel is the "
-                 "paper's")
+            "(docs/your-program.md)");
+  app.add_option(
+         "--contact", texts.contact,
+         "solver of the condensed contact problem (docs/methods.md); gauss-seidel is the paper's")
       ->check(CLI::IsMember(names_of(all_contact_solvers)))
       ->capture_default_str();
   add_whole(app, "--figure", 3, 5, options.run.figure,
-            "meshes and methods of the paper's figure, and those that we set next to them")
+            "meshes and methods of the paper's figure, and ours")
       ->excludes(app.get_option("--mesh"))
       ->excludes(app.get_option("--method"));
   app.add_option("--study", texts.study,
@@ -136,23 +137,26 @@ void add_measuring(CLI::App& app, Options& options, Texts& texts) {
                  "error they leave")
       ->check(CLI::IsMember({"target", "paper"}))
       ->capture_default_str();
-  app.add_option("--repetitions", texts.repetitions,
-                 "LEAST[..MOST][,precision=2%][,within=30]: timed runs of each case, until its "
-                 "median is known so well, or solves took so many seconds (docs/measuring.md)")
+  app.add_option(
+         "--repetitions", texts.repetitions,
+         "MIN[..MAX][,precision=2%][,within=30]: timed runs of each case, until its median is "
+         "known to 2 % or the runs have taken 30 s (docs/measuring.md)")
       ->capture_default_str();
   app.add_flag("--retry-noisy", texts.noise,
-               "measure a case again, up to three times, where the calibration loop next to it was "
-               "off by more than 5 %, or --retry-noisy=7%");
+               "measure a case again, up to three times, if the calibration loop around it was off "
+               "by more than 5 % (--retry-noisy=7%: 7 %)");
   app.add_flag("--interleave", options.limits.interleave,
-               "the repetitions of a scene's cases in random turn; records are written at its end");
-  app.add_option("--threads", texts.threads,
-                 "of BLAS and for right-hand sides; with --study=scaling a list, by default 1, 2, "
-                 "4, ... up to the processors")
+               "repeat the cases of a scene in random order; write its records at its end");
+  app.add_option(
+         "--threads", texts.threads,
+         "threads of BLAS and for right-hand sides; with --study=scaling a list (default: 1, 2, "
+         "4, ... up to the processors)")
       ->capture_default_str();
-  app.add_option("--timeout", texts.timeout,
-                 "SECONDS[,tuning=SECONDS][,others=SECONDS]: of one solve, of a case's search for "
-                 "parameters and tolerances, and of any other phase, as assembly, reference and "
-                 "errors (default: as a solve, but at least 900)")
+  app.add_option(
+         "--timeout", texts.timeout,
+         "SECONDS[,tuning=SECONDS][,others=SECONDS]: limits of one solve, of a case's search for "
+         "parameters and tolerances, and of any other phase, such as assembly, reference or "
+         "errors (default: as a solve, but at least 900)")
       ->capture_default_str();
   add_memory_limit(app, options.limits);
 }
@@ -162,10 +166,11 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--out", options.output.folder, "folder of the output files")
       ->capture_default_str();
   app.add_flag("--append", options.output.append,
-               "keep the records in the folder, but those of the cases that are run");
-  app.add_flag("--resume", options.output.resume,
-               "go on with the run in the folder, of the same machine, program and options: run "
-               "only the cases without a record")
+               "keep the records in the folder, except those of the cases run");
+  app.add_flag(
+         "--resume", options.output.resume,
+         "continue the run in the folder, with the same machine, program and options: run only "
+         "the cases without a record")
       ->excludes(app.get_option("--append"));
   app.add_option(
       "--shard", texts.shard,
@@ -176,8 +181,8 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
   app.option_defaults()->group("Instead of a run");
   app.add_flag(
       "--dry-run", options.dry_run,
-      "print the cases, what they will take (from earlier records) and what is left out; with "
-      "--adapt of the first level");
+      "print the cases, a forecast of time and memory (from earlier records) and what is left "
+      "out; with --adapt for the first level");
 }
 
 double share_of(const std::string& option, const std::string& text, const std::string& example) {

@@ -26,7 +26,7 @@ namespace {
 
 constexpr const char* solve_footer = R"(
 MODEL is a mesh or a Gmsh model; an input deck (.inp) brings its own scene. The mesh is adapted until the total error, relative in
-energy, is met, and the largest stress, where it is bounded, is known to twice that or no better on five finer meshes; with
+energy, is met; then until the largest stress, where it is bounded, is known to twice that, or five finer meshes or one without gain end it; with
 :force or :pressure until the interval of F_n or of the largest pressure is as narrow, ± relative, of all faces together and of
 each that carries more than 1 % of the load.
 In OUT: the picture figures/part.png, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), meshes and
@@ -69,7 +69,7 @@ Options parse_solve(int argc, const char* const* argv, PartGoal& goal, bool& htm
   app.add_option("--error", error, "total error, relative: 1%, 1%:force, 1%:pressure")
       ->capture_default_str();
   add_whole(app, "--steps", 1, max_load_steps, options.run.equal_steps,
-            "load in so many equal steps");
+            "number of equal load steps");
   app.add_option("--degree", degree, "of the stresses: 2 to 4, auto")->capture_default_str();
   add_model_settings(app, options.run.model_settings);
   add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
