@@ -250,7 +250,8 @@ def seconds(value: float) -> str:
     return f"{value:.3g} s"
 
 
-HEADS = ("case", "n_phi", "time", "±", "unchecked", "heap", "error stress", "error force", "status")
+OF_THE_MESH = ("error_total", "error_discretisation")  # in per cent
+HEADS = ("case", "n_phi", "time", "±", "without self-check", "heap", "error stress", "error force", "status")
 
 
 def cells_of(row: Row) -> tuple[str, ...]:
@@ -266,7 +267,9 @@ def cells_of(row: Row) -> tuple[str, ...]:
 def in_words(key: str, value: float | None) -> str:
     if value is None:
         return "—"
-    return seconds(value) if key.endswith("_s") else percent(value) if key.startswith("error") else short(value)
+    if key.endswith("_bytes"):
+        return f"{value:.3g} MiB"
+    return seconds(value) if key.endswith("_s") else percent(value) if key in OF_THE_MESH else short(value)
 
 
 def table_by_mesh(rows: list[Row], keys: list[str]) -> str:
@@ -321,9 +324,10 @@ def differences(project: Path) -> dict[str, list[Difference]]:
     """By file, in the order of the text."""
     runs = Runs(project / "results")
     quotes = grouped(quotes_in(project / "docs" / "numbers.txt"), lambda quote: quote.file)
-    texts = {file: (project / file).read_text(encoding="utf-8") for file in quotes}
+    pages = {*quotes, "README.md", *(f"docs/{page.name}" for page in (project / "docs").glob("*.md"))}
+    texts = {file: (project / file).read_text(encoding="utf-8") for file in sorted(pages)}
     return {file: sorted(chain(differing_tables(file, text, runs), *(
-        differences_of(quote, text, runs) for quote in quotes[file])), key=lambda d: d.span)
+        differences_of(quote, text, runs) for quote in quotes.get(file, []))), key=lambda d: d.span)
         for file, text in texts.items()}
 
 

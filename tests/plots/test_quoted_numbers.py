@@ -72,7 +72,7 @@ class CommittedNumbersTest(unittest.TestCase):
                                      [(text.count("\n", 0, start) + 1, wrong, place[group])])
 
     def test_a_planted_wrong_cell_of_the_table_is_found(self) -> None:
-        text = self.texts["README.md"]
+        text = (PROJECT / "README.md").read_text(encoding="utf-8")
         table = next(quoted_numbers.TABLE.finditer(text))
         cell = re.search(r"\d+ ms", table["body"])[0]
         at = text.index(cell, table.start("body"))
@@ -114,23 +114,30 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assertEqual(self.check("--write")[0], 0)
         self.assertEqual(self.check(), (0, "", ""))
         text = self.readme.read_text(encoding="utf-8")
-        self.assertIn("Mesh0/default/HYBRID    761  500 ms  200 µs     500 ms  4.0 MiB       1.0e-10", text)
+        self.assertIn("Mesh0/default/HYBRID    761  500 ms  200 µs              500 ms  4.0 MiB       1.0e-10", text)
         self.assertIn("\n…\nMesh7/default/HYBRID  50483", text)
 
     def test_a_table_by_mesh_has_values_of_the_records(self) -> None:
         self.records(made_up.case("Mesh0", "HYBRID", time_s=0.0123, error_total=0.0387),
                      made_up.case("Mesh7", "HYBRID", time_s=2.5, error_total=0.004),
                      made_up.case("Mesh7", "EXTERNAL:soft", status="inaccurate", time_s=1.0, error_total=0.25))
-        head = "<!-- table run: Mesh0|Mesh7 / HYBRID|EXTERNAL:soft / time_s,error_total -->\n"
+        head = "<!-- table run: Mesh0|Mesh7 / HYBRID|EXTERNAL:soft / time_s,error_total,peak_heap_bytes,error_force -->\n"
         self.quotes.write_text("[README.md]\nEND {}\n  run: count of */HYBRID\n", encoding="utf-8")
         self.readme.write_text(head + "<!-- end of table -->\nEND two\n", encoding="utf-8")
         self.assertEqual(self.check("--write")[0], 0)
         self.assertEqual(self.readme.read_text(encoding="utf-8"), head + (
             "|  | Mesh0 | Mesh7 |\n| --- | --- | --- |\n"
-            "| HYBRID | 12.3 ms, 3.9\u00a0% | 2.5 s, 0.4\u00a0% |\n"
-            "| soft | — | *1 s, 25\u00a0%* |\n<!-- end of table -->\nEND two\n"))
+            "| HYBRID | 12.3 ms, 3.9\u00a0%, 4 MiB, 1e-9 | 2.5 s, 0.4\u00a0%, 4 MiB, 1e-9 |\n"
+            "| soft | — | *1 s, 25\u00a0%, 4 MiB, 1e-9* |\n<!-- end of table -->\nEND two\n"))
         self.readme.write_text(head.replace("error", "eror") + "<!-- end of table -->\nEND two\n", encoding="utf-8")
         self.assert_refused(self.quotes.read_text(encoding="utf-8"), "README.md: <!-- table run", "no column eror_total")
+
+    def test_a_table_of_a_page_without_quotes_is_checked(self) -> None:
+        self.assertEqual(self.check("--write")[0], 0)
+        page = self.quotes.with_name("page.md")
+        page.write_text("<!-- table run: Mesh7 / HYBRID / time_s -->\n<!-- end of table -->\n", encoding="utf-8")
+        status, out, _ = self.check()
+        self.assertEqual((status, out.split(" ")[0]), (1, "docs/page.md:2:"))
 
     def test_a_file_is_replaced_whole(self) -> None:
         with open(self.readme, encoding="utf-8") as before:
