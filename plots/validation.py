@@ -95,18 +95,19 @@ def values(row: dict, key: str) -> str:
 
 
 def table_of(rows: list[dict]) -> str:
-    lines = ["| case | quantity | published | ours | off by | allowed, because |", "|---|---|---|---|---|---|"]
+    lines = ["| case | quantity | published | ours | off by | allowed |", "|---|---|---|---|---|---|"]
     for k, row in enumerate(rows):
         is_first = k == 0 or rows[k - 1]["case"] != row["case"]
         half_width = row["off"] or 0
         is_wide = row["ours"] and half_width > LEAST * abs(row["ours"][0])
         ours = values(row, "ours") + f" ± {half_width:.2g}" * bool(is_wide)
-        formula, because = (row[key].replace("|", r"\|") for key in ("formula", "because"))
         off = "–" if row["deviation"] is None else percent(abs(row["deviation"]))
-        lines.append(f"| {row['title'] + ' `' + row['case'] + '`' if is_first else ''} | {row['quantity']}: {formula} | "
-                     f"{values(row, 'published')} {row['unit']} | {ours} | {off} | {percent(row['allowed'])}: {because} |")
-    sources = dict.fromkeys((row["case"], row["source"]) for row in rows)
-    return "\n".join([*lines, "", *(f"- `{case}`: {source}" for case, source in sources)]) + "\n"
+        lines.append(f"| {row['title'] + ' `' + row['case'] + '`' if is_first else ''} | {row['quantity']} | "
+                     f"{values(row, 'published')} {row['unit']} | {ours} | {off} | {percent(row['allowed'])} |")
+    cases: dict[str, dict[str, None]] = {}  # by source
+    for row in rows:
+        cases.setdefault(row["source"], {})[f"`{row['case']}`"] = None
+    return "\n".join([*lines, "", *(f"- {', '.join(names)}: {source}" for source, names in cases.items())]) + "\n"
 
 
 def page_of(text: str, rows: list[dict], path: Path) -> str:
