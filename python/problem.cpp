@@ -220,7 +220,7 @@ void bind_problem(py::module_& module) {
       "A body in contact: a mesh under a scene.\n\n"
       "mesh: a name of the catalogue ('Mesh0' … 'Mesh7'), a .msh file, or any model that bench\n"
       "takes. scene: a dict or a JSON file; None: the deck's own, or the default. Keys by name\n"
-      "replace those of the scene (docs/meshes-and-scenes.md). Lengths mm, forces N per mm of\n"
+      "replace those of the scene (docs/scenes.md). Lengths mm, forces N per mm of\n"
       "thickness, stresses MPa. Raises InputError; notes are warnings.")
       .def(py::init(&posed), py::arg("mesh"), py::pos_only(), py::arg("scene") = py::none())
       .def_property_readonly("name", &BoundProblem::name)

@@ -1,5 +1,5 @@
 // How large what a scene gives may be: far beyond what is meant, far from where products of it
-// leave a double's range. docs/meshes-and-scenes.md has the table.
+// leave a double's range. docs/scenes.md has the table.
 #pragma once
 
 #include <Eigen/Core>

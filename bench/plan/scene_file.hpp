@@ -1,5 +1,5 @@
 // Scene files: JSON with the keys of struct Scene; a missing key keeps its default. scene_keys.cpp
-// has the keys, docs/meshes-and-scenes.md their meaning.
+// has the keys, docs/scenes.md their meaning.
 #pragma once
 
 #include <filesystem>
