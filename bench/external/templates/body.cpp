@@ -1,4 +1,4 @@
-// A body in contact with walls, in displacements:  NAME INPUT OUTPUT  (docs/external-solvers.md)
+// A body in contact with walls, in displacements:  NAME INPUT OUTPUT  (docs/your-program.md)
 //
 // Quadratic triangles; at each node of a contact edge u_n <= gap, F_n <= 0 and Coulomb's law, by
 // Newton's method on the condensed nodes. Displacements in mm, forces in N per mm of thickness.

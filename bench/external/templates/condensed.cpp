@@ -1,4 +1,4 @@
-// Contact forces of a condensed problem:  NAME INPUT OUTPUT  (docs/external-solvers.md)
+// Contact forces of a condensed problem:  NAME INPUT OUTPUT  (docs/your-program.md)
 //
 //     r = D F - G - gap      per contact point a normal row, then (with friction) a tangential one
 //     F_n <= 0, r_n <= 0, F_n r_n = 0;  |F_t| <= mu |F_n|, F_t r_t <= 0, r_t = 0 unless it slips
