@@ -138,7 +138,7 @@ void check_airy_answer_without_D(const AirySystem& system, const SaddleSolve& so
     const Eigen::VectorXd off = natural_map(system.contact, D_diagonal, F_C, displacement);
     ContactCheck result;
     // ‖ΔF‖_D ≤ ‖e‖_D + ‖D_d e‖_{D⁻¹}, e the map: the last up to 6 ‖e‖ in D_d
-    // (docs/theory-algebraic-error.md).
+    // (docs/theory-errors.md).
     constexpr double multiple = 10;
     result.energy_norm = multiple * std::sqrt(off.dot(D_diagonal.cwiseProduct(off)));
     result.relative = multiple * scale.relative_force(off.norm(), F_C.norm());

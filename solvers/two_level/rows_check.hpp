@@ -15,7 +15,7 @@
 //
 // with a half more on the first two, and e/100 on the stress. A wrong law of points on a soft layer
 // is nothing in ‖c‖ next to the forces of a stiff one, but not in ‖c‖_D; the factor 2 is that of
-// ALM's estimate (docs/theory-algebraic-error.md).
+// ALM's estimate (docs/theory-errors.md).
 #pragma once
 
 #include "assembly/problem/load_scale.hpp"
