@@ -95,7 +95,7 @@ def values(row: dict, key: str) -> str:
 
 
 def table_of(rows: list[dict]) -> str:
-    lines = ["| case | quantity | published | ours | off by | allowed |", "|---|---|---|---|---|---|"]
+    lines = ["| case | quantity | published | ours | off by |", "|---|---|---|---|---|"]
     for k, row in enumerate(rows):
         is_first = k == 0 or rows[k - 1]["case"] != row["case"]
         half_width = row["off"] or 0
@@ -103,7 +103,7 @@ def table_of(rows: list[dict]) -> str:
         ours = values(row, "ours") + f" ± {half_width:.2g}" * bool(is_wide)
         off = "–" if row["deviation"] is None else percent(abs(row["deviation"]))
         lines.append(f"| {row['title'] + ' `' + row['case'] + '`' if is_first else ''} | {row['quantity']} | "
-                     f"{values(row, 'published')} {row['unit']} | {ours} | {off} | {percent(row['allowed'])} |")
+                     f"{values(row, 'published')} {row['unit']} | {ours} | {off} |")
     cases: dict[str, dict[str, None]] = {}  # by source
     for row in rows:
         cases.setdefault(row["source"], {})[f"`{row['case']}`"] = None
