@@ -133,9 +133,8 @@ void print_profile(const std::vector<ProfiledRun>& runs) {
     std::vector<std::string>& row = table.emplace_back();
     row.push_back(phases[phase].first);
     for (std::size_t level = 0; level < runs.front().levels.size(); ++level)
-      row.push_back(show_seconds(over_runs([&](const ProfiledRun& run) {
-        return phases_of(run.levels[level])[phase].second;
-      })));
+      row.push_back(show_seconds(over_runs(
+          [&](const ProfiledRun& run) { return phases_of(run.levels[level])[phase].second; })));
     const double all_s = over_runs([&](const ProfiledRun& run) { return of_all(run, phase); });
     row.push_back(show_seconds(all_s));
     row.push_back(fmt::format("{:.1f} %", 100 * all_s / whole_s));
@@ -143,13 +142,12 @@ void print_profile(const std::vector<ProfiledRun>& runs) {
     row.emplace_back();
   }
   fmt::print("{}\n", aligned_table(table, 1));
-  const double last_s =
-      over_runs([](const ProfiledRun& run) { return run.levels.back().solve_s; });
+  const double last_s = over_runs([](const ProfiledRun& run) { return run.levels.back().solve_s; });
   fmt::print("all levels: {}, {:.1f} times the last level's solve ({}); first run {}\n",
              show_seconds(whole_s), whole_s / last_s, show_seconds(last_s),
              show_seconds(runs.front().time_s));
-  fmt::print("page faults: {:.0f}; first run {}\n",
-             over_runs(&ProfiledRun::page_faults), runs.front().page_faults);
+  fmt::print("page faults: {:.0f}; first run {}\n", over_runs(&ProfiledRun::page_faults),
+             runs.front().page_faults);
 }
 
 }  // namespace
