@@ -16,7 +16,7 @@
 namespace airybench {
 
 std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
-  if (method.in_displacements() && !method.program.empty()) return {};  // it has its own
+  if (method.takes_chords()) return {};  // it has its own
   if (method.in_displacements()) return Bound::displacement;
   // P2's displacements are those of a body with curves, stresses of degree 1 of one with chords.
   const bool by_displacements =

@@ -141,7 +141,7 @@ std::string remark_on_polygons(const Method& method, const std::string& polygons
                                const TotalError& total) {
   if (polygons.empty()) return "";
   // P2's to P4's error is to stresses that follow the curves: η is not of their chords alone.
-  const bool is_of_chords = !method.in_displacements() || !method.program.empty();
+  const bool is_of_chords = !method.in_displacements() || method.takes_chords();
   return fmt::format(
       "curves that are solved as polygons: {}{}", polygons,
       !total.of_mesh() || !(total.geometry() > 0) ? ""

@@ -66,7 +66,10 @@ AssembledBlocks Workbench::assemble_and_measure(const Method& method) const {
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
     const OwnerScope scope(MemoryOwner::blocks);
-    if (problem_) blocks.system = assemble(method, problem_);
+    if (problem_) {
+      blocks.system = assemble(method, problem_);
+      blocks.first = blocks.system->problem;
+    }
     blocks.assembly_samples_s.push_back(seconds_since(start));
     blocks.heap_bytes = heap::live_bytes() - before;
   }
@@ -213,7 +216,8 @@ RunControl Workbench::control_of(const CaseSettings& settings, Activity what) co
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
                                 Activity what) {
   const bool in_detail = what == Activity::detail_run;
-  if (problem_ && blocks.system->problem != problem_) blocks.system->set_load_case(problem_);
+  if (blocks.first && blocks.system->problem != blocks.first)
+    blocks.system->set_load_case(blocks.first);
   const ActivityScope scope(board_, what);
   const RunControl control = control_of(choice.settings, what);
   const bool rss_is_reset = rss::reset_peak();
@@ -278,7 +282,7 @@ void Workbench::write_fields(const Case& asked, const Choice& choice, const Asse
     return;
   }
   if (result.steps.empty() || solution.status == Status::timeout) return;
-  blocks.system->set_load_case(problem_);
+  blocks.system->set_load_case(blocks.first);
   StepFields files(file.parent_path(), file.filename(), *problem_);
   const ActivityScope scope(board_, Activity::discretisation);
   double watched_s = 0;

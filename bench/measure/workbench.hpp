@@ -12,14 +12,15 @@ namespace airybench {
 struct AssembledBlocks {
   // With the loads of the path's first or last step; null if there is no body.
   std::unique_ptr<ContactSystem> system;
+  std::shared_ptr<const Problem> first;  // of the path's first step; of some methods with chords
   std::vector<double> assembly_samples_s;
   std::int64_t heap_bytes = 0;  // that they hold; 0 without the heap probe
 };
-// Methods with the same key share their blocks: those of an AirySystem or not, and the degree of
-// the stresses.
-using BlocksKey = std::pair<bool, int>;
+// Methods with the same key share their blocks: those of an AirySystem or not, of chords or not,
+// and the degree of the stresses.
+using BlocksKey = std::tuple<bool, bool, int>;
 inline BlocksKey blocks_key(const Method& method) {
-  return {method.unknowns == Unknowns::airy_function, method.degree};
+  return {method.unknowns == Unknowns::airy_function, method.takes_chords(), method.degree};
 }
 
 class Workbench {

@@ -61,11 +61,9 @@ Solution run_any(const SolveAny& solve, const Problem& problem, const RunControl
   }
 }
 
-// Programs in displacements have the chords of curved sides.
 std::shared_ptr<const Problem> body_of(const Method& method,
                                        std::shared_ptr<const Problem> problem) {
-  const bool has_chords = method.in_displacements() && !method.program.empty();
-  if (!has_chords || problem->round.empty()) return problem;
+  if (!method.takes_chords() || problem->round.empty()) return problem;
   return std::make_shared<const Problem>(with_chords(*problem));
 }
 

@@ -98,6 +98,8 @@ struct Method {
   }
   bool is_tightened() const { return first_tolerance > 0; }  // by the harness
   bool in_displacements() const { return unknowns == Unknowns::displacements; }
+  // Programs in displacements have the chords of curved sides.
+  bool takes_chords() const { return in_displacements() && !program.empty(); }
 };
 
 // What the method solves.

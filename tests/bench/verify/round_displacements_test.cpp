@@ -9,6 +9,7 @@
 #include "assembly/nodal_forces.hpp"
 #include "bench/verify/verifier.hpp"
 #include "solvers/loading/load_steps.hpp"
+#include "tests/bench/measure/examined.hpp"
 #include "tests/bench/verify/round_bodies.hpp"
 #include "tests/bench/verify/solved.hpp"
 
@@ -167,6 +168,11 @@ TEST(RoundDisplacementsOfPrograms, HaveChords) {
   EXPECT_FALSE(assemble(method, problem)->problem->round.empty());
   method.program = "another";
   EXPECT_TRUE(assemble(method, problem)->problem->round.empty());
+  Options options;
+  options.limits.repetitions = 1;
+  testing::CaseBench bench(problem, options);  // one after the other
+  for (const Method& of_case : {select_methods("P2").front(), method, select_methods("P2").front()})
+    EXPECT_LT(bench.examine(of_case, "").equilibrium_residual, 1e-10);
 }
 
 }  // namespace
