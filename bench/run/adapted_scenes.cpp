@@ -1,10 +1,12 @@
 #include "bench/run/adapted_scenes.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <limits>
 #include <set>
 
 #include "bench/measure/environment.hpp"
@@ -74,6 +76,9 @@ Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
 void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Options& options,
                 const std::filesystem::path& folder) {
   tell_refused_memory_at_exit();
+  // A level takes the memory of the one before: pages that are given back would be cleared anew.
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
   set_threads(options.run.cases.threads);
   const heap::Backstop backstop(options.limits.memory_limit_bytes);
   const Method method = adapting_method(options.run.adapt.by);
