@@ -251,7 +251,7 @@ def seconds(value: float) -> str:
 
 
 OF_THE_MESH = ("error_total", "error_discretisation")  # in per cent
-HEADS = ("case", "n_phi", "time", "±", "without self-check", "heap", "error stress", "error force", "status")
+HEADS = ("case", "n_phi", "time", "±", "heap", "error stress", "error force", "status")
 
 
 def cells_of(row: Row) -> tuple[str, ...]:
@@ -259,7 +259,6 @@ def cells_of(row: Row) -> tuple[str, ...]:
         return "-" if value is None else format(value, show)
     return (row.case_name, str(row.n_phi), seconds(row.time_s),
             "n=1" if row.repetitions == 1 else seconds(row.time_mad_s or 0),
-            seconds(row.time_s - (row.stage_check_s or 0)),
             number(value_of_row(row, "peak_heap_bytes"), ".1f") + " MiB",
             number(row.error_stress, ".1e"), number(row.error_force, ".1e"), row.status)
 
@@ -290,7 +289,7 @@ def table(rows: list[Row]) -> str:
     for i, line in enumerate(cells):
         if i > 1 and rows[i - 1].mesh != rows[i - 2].mesh:
             lines.append("…")
-        lines.append("  ".join(cell.rjust(width) if 1 <= column < 8 else cell.ljust(width)
+        lines.append("  ".join(cell.rjust(width) if 1 <= column < len(HEADS) - 1 else cell.ljust(width)
                                for column, (cell, width) in enumerate(zip(line, widths))).rstrip())
     return "```\n" + "\n".join(lines) + "\n```\n"
 

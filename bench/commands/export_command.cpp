@@ -107,7 +107,8 @@ int export_command(int argc, const char* const* argv) {
       ->check(CLI::IsMember(formats));
   app.add_option("--mesh", meshes, "names or globs; default: all of the records");
   app.add_option("--method", methods, "names or globs; default: all of the records");
-  app.add_option("--columns", columns, "of markdown and latex; default: those that have values");
+  app.add_option("--columns", columns,
+                 "of markdown and latex: names, all; default: eight that have values");
   app.add_option("--out", out, "file to write; default: standard output");
   parse_command_line(app, argc, argv);
   if (!columns.empty() && format != "markdown" && format != "latex")

@@ -45,6 +45,7 @@ std::string times_line(const RunTimes& times) {
 
 int run_command(int argc, const char* const* argv) {
   const Options options = parse_options(argc, argv);
+  ResultsTable table(options.output.columns);
   if (options.dry_run) {
     require_standard_output();
     print_forecast(planned_cases(options).part, options);
@@ -68,7 +69,6 @@ int run_command(int argc, const char* const* argv) {
   context["cases_planned"] = std::to_string(planned.whole.size());
   context["plan_sha256"] = fingerprint(planned.whole);
   const RunResult result = run_cases(plan, options.limits, options.output, context);
-  ResultsTable table;
   EarlyPasses early;
   std::vector<double> noise;
   std::vector<Record> beyond_goal;

@@ -82,7 +82,7 @@ std::string footer() {
 // Option values that are parsed after CLI11.
 struct Texts {
   std::string study, stop = "target", contact = "newton", repetitions = "5", noise, threads = "1",
-                     timeout = "900", adapt, degree, shard, fields;
+                     timeout = "900", adapt, degree, shard, columns, fields;
 };
 
 void add_cases(CLI::App& app, Options& options, Texts& texts) {
@@ -165,6 +165,8 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
   app.option_defaults()->group("What is kept");
   app.add_option("--out", options.output.folder, "folder of the output files")
       ->capture_default_str();
+  app.add_option("--columns", texts.columns,
+                 "of the printed table: all, or their names; default: the eight that say most");
   app.add_flag("--append", options.output.append,
                "keep the records in the folder, except those of the cases run");
   app.add_flag(
@@ -401,6 +403,7 @@ Options parse_options(int argc, const char* const* argv, Asked asked) {
   read_timeout(texts.timeout, given("--timeout"), options.run.budgets_s, options.limits);
   if (given("--adapt")) read_adapt(texts.adapt, options.run.adapt);
   if (given("--degree")) read_degree(texts.degree, given("--method"), options.run);
+  options.output.columns = split_list(texts.columns);
   if (!texts.shard.empty()) {
     const std::optional<Shard> part = shard_of(texts.shard);
     if (!part) refuse("--shard", texts.shard, "k/n with 1 <= k <= n");

@@ -88,6 +88,7 @@ TimeLimit phase_limit(const std::string& what, const Limits& limits);
 // Where records go.
 struct Output {
   std::filesystem::path folder = "results/latest";
+  std::vector<std::string> columns;            // of the printed table (report/results_table.hpp)
   bool append = false;                         // keep the records in the folder
   bool resume = false;                         // run only the cases without a record
   std::map<std::string, std::string> context;  // --benchmark_context=, added to records

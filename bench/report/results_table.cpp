@@ -17,7 +17,6 @@ namespace airybench {
 
 struct TableColumn {
   enum class Kind { words, count, seconds, bytes, error, mm, newtons };
-  enum class Shown { always, with_field, in_contact_studies, if_chosen };
   struct Cell {
     std::optional<double> number;
     std::string words;  // if there is no number
@@ -25,7 +24,7 @@ struct TableColumn {
 
   const char* header;
   Kind kind;
-  Shown shown;
+  int rank;           // unless columns are chosen, those of the lowest ranks are shown
   const char* field;  // that some record must have; nullptr: none
   Cell (*cell)(const Record&);
 };
@@ -34,7 +33,10 @@ namespace {
 
 using Cell = TableColumn::Cell;
 using CellKind = TableColumn::Kind;
-using Shown = TableColumn::Shown;
+
+constexpr int of_contact_studies = 8, if_chosen = 9;  // ranks
+constexpr std::size_t max_columns = 8;                // of a table whose columns are not chosen
+constexpr const char* all_columns = "all";
 
 Cell amount(const std::optional<double>& value) { return {value, "-"}; }
 Cell whole(const std::optional<std::int64_t>& value) {
@@ -54,60 +56,53 @@ std::optional<double> unchecked_s(const Record& r) {
 }
 
 constexpr std::array<TableColumn, 27> table_columns = {{
-    {"case", CellKind::words, Shown::always, nullptr,
-     [](const Record& r) { return named(name_of(r).text()); }},
-    {"mesh", CellKind::words, Shown::if_chosen, nullptr,
-     [](const Record& r) { return named(r.mesh); }},
-    {"scene", CellKind::words, Shown::if_chosen, nullptr,
-     [](const Record& r) { return named(r.scene); }},
-    {"method", CellKind::words, Shown::if_chosen, nullptr,
+    {"case", CellKind::words, 0, nullptr, [](const Record& r) { return named(name_of(r).text()); }},
+    {"mesh", CellKind::words, if_chosen, nullptr, [](const Record& r) { return named(r.mesh); }},
+    {"scene", CellKind::words, if_chosen, nullptr, [](const Record& r) { return named(r.scene); }},
+    {"method", CellKind::words, if_chosen, nullptr,
      [](const Record& r) { return named(variant_of(r)); }},
-    {"n_phi", CellKind::count, Shown::with_field, "n_phi",
-     [](const Record& r) { return whole(r.n_phi); }},
-    {"n_c", CellKind::count, Shown::with_field, "siconos_error",
-     [](const Record& r) { return whole(r.n_c); }},
-    {"W", CellKind::words, Shown::with_field, "contact_matrix",
+    {"n_phi", CellKind::count, 1, "n_phi", [](const Record& r) { return whole(r.n_phi); }},
+    {"n_c", CellKind::count, 1, "siconos_error", [](const Record& r) { return whole(r.n_c); }},
+    {"W", CellKind::words, 5, "contact_matrix",
      [](const Record& r) { return named(r.contact_matrix); }},
-    {"time", CellKind::seconds, Shown::always, nullptr,
-     [](const Record& r) { return amount(r.time_s); }},
-    {"±", CellKind::seconds, Shown::always, nullptr,
+    {"time", CellKind::seconds, 1, nullptr, [](const Record& r) { return amount(r.time_s); }},
+    {"±", CellKind::seconds, 3, nullptr,
      [](const Record& r) { return r.repetitions == 1 ? named("n=1") : amount(r.time_mad_s); }},
-    {"contact law", CellKind::seconds, Shown::in_contact_studies, "stage_contact_s",
+    {"contact law", CellKind::seconds, of_contact_studies, "stage_contact_s",
      [](const Record& r) { return amount(r.stage_contact_s); }},
-    {"without self-check", CellKind::seconds, Shown::with_field, "stage_check_s",
+    {"without self-check", CellKind::seconds, 5, "stage_check_s",
      [](const Record& r) { return amount(unchecked_s(r)); }},
-    {"heap", CellKind::bytes, Shown::always, nullptr,
-     [](const Record& r) { return whole(r.peak_heap_bytes); }},
-    {"program", CellKind::seconds, Shown::with_field, "program_s",
+    {"heap", CellKind::bytes, 1, nullptr, [](const Record& r) { return whole(r.peak_heap_bytes); }},
+    {"program", CellKind::seconds, 2, "program_s",
      [](const Record& r) { return amount(r.program_s); }},
-    {"CPU", CellKind::seconds, Shown::with_field, "processor_s",
+    {"CPU", CellKind::seconds, 5, "processor_s",
      [](const Record& r) { return amount(r.processor_s); }},
-    {"RSS", CellKind::bytes, Shown::with_field, "program_s",
+    {"RSS", CellKind::bytes, 5, "program_s",
      [](const Record& r) { return r.program.empty() ? named("-") : whole(r.peak_rss_bytes); }},
-    {"error stress", CellKind::error, Shown::with_field, "n_phi",
+    {"error stress", CellKind::error, 3, "n_phi",
      [](const Record& r) { return amount(r.error_stress); }},
-    {"error force", CellKind::error, Shown::with_field, "n_phi",
+    {"error force", CellKind::error, 4, "n_phi",
      [](const Record& r) { return amount(r.error_force); }},
-    {"natural map", CellKind::error, Shown::with_field, "siconos_error",
+    {"natural map", CellKind::error, 2, "siconos_error",
      [](const Record& r) { return amount(r.natural_map_residual); }},
-    {"Siconos", CellKind::error, Shown::with_field, "siconos_error",
+    {"Siconos", CellKind::error, 4, "siconos_error",
      [](const Record& r) { return amount(r.siconos_error); }},
-    {"error total", CellKind::error, Shown::with_field, "error_total",
+    {"error total", CellKind::error, 2, "error_total",
      [](const Record& r) { return total_error(r.error_total); }},
     // What bodies solved in displacements are asked.
-    {"penetration", CellKind::mm, Shown::with_field, "penetration_mm",
+    {"penetration", CellKind::mm, 5, "penetration_mm",
      [](const Record& r) { return amount(r.penetration_mm); }},
-    {"between nodes", CellKind::mm, Shown::with_field, "penetration_mm",
+    {"between nodes", CellKind::mm, 5, "penetration_mm",
      [](const Record& r) { return amount(r.edge_penetration_mm); }},
-    {"tension", CellKind::error, Shown::with_field, "penetration_mm",
+    {"tension", CellKind::error, 5, "penetration_mm",
      [](const Record& r) { return amount(r.tension); }},
-    {"outside friction cone", CellKind::error, Shown::with_field, "penetration_mm",
+    {"outside friction cone", CellKind::error, 5, "penetration_mm",
      [](const Record& r) { return amount(r.friction_excess); }},
-    {"unbalanced", CellKind::newtons, Shown::with_field, "penetration_mm",
+    {"unbalanced", CellKind::newtons, 5, "penetration_mm",
      [](const Record& r) { return amount(r.unbalanced_N); }},
-    {"adaptive loop", CellKind::seconds, Shown::with_field, "adapt_time_s",
+    {"adaptive loop", CellKind::seconds, 2, "adapt_time_s",
      [](const Record& r) { return amount(r.adapt_time_s); }},
-    {"status", CellKind::words, Shown::always, nullptr,
+    {"status", CellKind::words, 0, nullptr,
      [](const Record& r) { return named(std::string(name_of(r.status))); }},
 }};
 
@@ -153,17 +148,73 @@ void FilledColumns::add(const Record& r) {
   has_contact_study_ = has_contact_study_ || r.points == "contact";
 }
 
-bool FilledColumns::include(const TableColumn& column) const {
-  return column.shown != Shown::if_chosen &&
-         (column.field == nullptr || fields_.contains(column.field)) &&
-         (column.shown != Shown::in_contact_studies || has_contact_study_);
+namespace {
+
+std::string key_of(const TableColumn& column) {
+  std::string key = column.header;
+  std::ranges::replace(key, ' ', '_');
+  return key;
 }
+
+const TableColumn& column_named(const std::string& key) {
+  const auto* found = std::ranges::find(table_columns, key, key_of);
+  if (found != table_columns.end()) return *found;
+  std::string valid = all_columns;
+  for (const TableColumn& column : table_columns) valid += ", " + key_of(column);
+  throw UsageError(fmt::format("--columns: no column is '{}' (valid: {})", key, valid));
+}
+
+bool are_all(const std::vector<std::string>& chosen) {
+  return chosen == std::vector<std::string>{all_columns};
+}
+
+// With what names the cases.
+std::vector<const TableColumn*> columns_named(const std::vector<std::string>& chosen) {
+  std::vector<const TableColumn*> columns;
+  for (const std::string& key : chosen) columns.push_back(&column_named(key));
+  const auto names_cases = [](const TableColumn* column) {
+    return column->rank == if_chosen || column == &table_columns.front();
+  };
+  if (std::ranges::none_of(columns, names_cases))
+    columns.insert(columns.begin(), &table_columns.front());
+  return columns;
+}
+
+}  // namespace
+
+std::vector<const TableColumn*> FilledColumns::all() const {
+  std::vector<const TableColumn*> columns;
+  for (const TableColumn& column : table_columns)
+    if (column.rank != if_chosen && (column.field == nullptr || fields_.contains(column.field)))
+      columns.push_back(&column);
+  return columns;
+}
+
+std::vector<const TableColumn*> FilledColumns::of_lowest_rank() const {
+  std::vector<const TableColumn*> columns = all();
+  const auto rank = [this](const TableColumn* column) {
+    return column->rank == of_contact_studies && has_contact_study_ ? 2 : column->rank;
+  };
+  std::ranges::stable_sort(columns, {}, rank);
+  columns.resize(std::min(columns.size(), max_columns));
+  std::ranges::sort(columns);  // as in the table
+  return columns;
+}
+
+ResultsTable::ResultsTable(const std::vector<std::string>& chosen)
+    : is_limited_(chosen.empty()),
+      chosen_(is_limited_ || are_all(chosen) ? std::vector<const TableColumn*>()
+                                             : columns_named(chosen)) {}
 
 void ResultsTable::add(const Record& r) {
   filled_.add(r);
   std::string row;
+  const auto add_cell = [&](const TableColumn& column) {
+    row += text_of(column.cell(r), column.kind) + "\t";
+  };
   for (const TableColumn& column : table_columns)
-    if (column.shown != Shown::if_chosen) row += text_of(column.cell(r), column.kind) + "\t";
+    if (chosen_.empty() && column.rank != if_chosen) add_cell(column);
+  for (const TableColumn* column : chosen_) add_cell(*column);
   row.shrink_to_fit();
   rows_.push_back(std::move(row));
   if (misses_precision(r)) imprecise_ += imprecise_line(r);
@@ -198,55 +249,38 @@ std::string ResultsTable::reasons() const {
 }
 
 std::string ResultsTable::text() const {
-  std::vector<std::vector<std::string>> shown(1);
-  for (const TableColumn& column : table_columns)
-    if (filled_.include(column)) shown.front().emplace_back(column.header);
+  std::vector<const TableColumn*> kept = chosen_, shown = chosen_;  // in rows_, in the table
+  if (chosen_.empty()) {
+    for (const TableColumn& column : table_columns)
+      if (column.rank != if_chosen) kept.push_back(&column);
+    shown = is_limited_ ? filled_.of_lowest_rank() : filled_.all();
+  }
+  std::vector<std::vector<std::string>> table(1);
+  for (const TableColumn* column : shown) table.front().emplace_back(column->header);
   for (const std::string& row : rows_) {
     std::istringstream cells(row);
     std::string cell;
-    shown.emplace_back();
-    for (const TableColumn& column : table_columns)
-      if (column.shown != Shown::if_chosen && std::getline(cells, cell, '\t') &&
-          filled_.include(column))
-        shown.back().push_back(cell);
+    table.emplace_back();
+    for (const TableColumn* column : kept)
+      if (std::getline(cells, cell, '\t') && std::ranges::find(shown, column) != shown.end())
+        table.back().push_back(cell);
   }
-  return aligned_table(shown, 1) + imprecise_ + noisy_ + reasons();
+  std::string more;
+  for (const TableColumn* column : filled_.all())
+    if (is_limited_ && std::ranges::find(shown, column) == shown.end())
+      more += (more.empty() ? "" : ", ") + key_of(*column);
+  if (!more.empty()) more = fmt::format("more columns: --columns={} of: {}\n", all_columns, more);
+  return aligned_table(table, 1) + imprecise_ + noisy_ + reasons() + more;
 }
 
 namespace {
 
-std::string key_of(const TableColumn& column) {
-  std::string key = column.header;
-  std::ranges::replace(key, ' ', '_');
-  return key;
-}
-
-const TableColumn& column_named(const std::string& key) {
-  const auto* found = std::ranges::find(table_columns, key, key_of);
-  if (found != table_columns.end()) return *found;
-  std::string valid;
-  for (const TableColumn& column : table_columns)
-    valid += (valid.empty() ? "" : ", ") + key_of(column);
-  throw UsageError(fmt::format("--columns: no column is '{}' (valid: {})", key, valid));
-}
-
 std::vector<const TableColumn*> columns_of(const std::vector<Record>& cases,
                                            const std::vector<std::string>& chosen) {
-  std::vector<const TableColumn*> columns;
-  if (chosen.empty()) {
-    FilledColumns filled;
-    for (const Record& record : cases) filled.add(record);
-    for (const TableColumn& column : table_columns)
-      if (filled.include(column)) columns.push_back(&column);
-    return columns;
-  }
-  for (const std::string& key : chosen) columns.push_back(&column_named(key));
-  const auto names_cases = [](const TableColumn* column) {
-    return column->shown == Shown::if_chosen || column == &table_columns.front();
-  };
-  if (std::ranges::none_of(columns, names_cases))
-    columns.insert(columns.begin(), &table_columns.front());
-  return columns;
+  if (!chosen.empty() && !are_all(chosen)) return columns_named(chosen);
+  FilledColumns filled;
+  for (const Record& record : cases) filled.add(record);
+  return chosen.empty() ? filled.of_lowest_rank() : filled.all();
 }
 
 struct Unit {

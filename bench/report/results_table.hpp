@@ -12,25 +12,33 @@ namespace airybench {
 
 struct TableColumn;
 
-// Which columns of the table the records fill.
+// The columns of the table that the records fill, in its order.
 class FilledColumns {
  public:
   void add(const Record& record);
-  bool include(const TableColumn& column) const;
+  std::vector<const TableColumn*> all() const;
+  std::vector<const TableColumn*> of_lowest_rank() const;  // at most eight
 
  private:
   std::set<std::string> fields_;  // that some record has
   bool has_contact_study_ = false;
 };
 
+// chosen: headers with _ for a space, or "all" that have values; empty: the eight of the lowest
+// rank among these, and the names of the others. `case` comes first unless it, mesh, scene or
+// method is chosen. Throws UsageError for an unknown one.
+
 // A cell has a number and its unit; remarks on the cases follow.
 class ResultsTable {
  public:
+  explicit ResultsTable(const std::vector<std::string>& chosen = {});
   void add(const Record& record);
   std::string text() const;
 
  private:
-  std::vector<std::string> rows_;  // the cells of all columns, each ended by a tab
+  bool is_limited_;
+  std::vector<const TableColumn*> chosen_;  // empty: by what the records fill
+  std::vector<std::string> rows_;           // the cells that may be shown, each ended by a tab
   FilledColumns filled_;
   std::string imprecise_, noisy_;
   // Why a case is not ok, or a remark on one that is, which other cases of its scene may share.
@@ -53,8 +61,6 @@ struct PaperTable {
   std::vector<std::vector<std::string>> rows;  // "29.2", "2.8e-11"; "-": no value
 };
 
-// chosen: headers with _ for a space; empty: the columns that the terminal shows. `case` comes
-// first unless it, mesh, scene or method is chosen. Throws UsageError for an unknown one.
 PaperTable paper_table(const std::vector<Record>& cases, const std::vector<std::string>& chosen);
 
 std::string markdown_text(const PaperTable& table);

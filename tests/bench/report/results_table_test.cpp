@@ -4,6 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <iterator>
+#include <sstream>
+
+#include "tests/support/contains.hpp"
+
 namespace airybench::results_table_test {
 namespace {
 
@@ -60,6 +65,30 @@ TEST(ResultsTables, ARemarkNamesItsSceneOrWhereRemarksDifferItsCase) {
             "Mesh3/a_b|c/HYBRID:k=1 and 1 more: it slides\nMesh3/a_b|c/HYBRID:k=2: it rolls\n");
 }
 
+TEST(ResultsTables, HaveEightColumnsUnlessAskedForOthers) {
+  Record record = measured("HYBRID", 1, 1, 1e-9);
+  record.error_total = 0.01;
+  record.adapt_time_s = 2;
+  record.stage_check_s = 0.1;
+  const auto text = [&](const std::vector<std::string>& chosen) {
+    ResultsTable table(chosen);
+    table.add(record);
+    return table.text();
+  };
+  const auto words = [&](const std::vector<std::string>& chosen) {
+    std::istringstream line(text(chosen).substr(0, text(chosen).find('\n')));
+    return std::ssize(std::vector<std::string>(std::istream_iterator<std::string>(line), {}));
+  };
+  EXPECT_EQ(words({}), 10);  // two of them are two words
+  EXPECT_TRUE(testing::contains(text({}), "error total  adaptive loop"));
+  EXPECT_TRUE(text({}).ends_with(
+      "more columns: --columns=all of: without_self-check, error_stress, error_force\n"));
+  EXPECT_EQ(words({"all"}), 16);
+  EXPECT_FALSE(testing::contains(text({"all"}), "more columns"));
+  EXPECT_TRUE(text({"error_total", "method"}).starts_with("error total  method"));
+  EXPECT_TRUE(text({"time"}).starts_with("case"));
+}
+
 TEST(PaperTables, MarkdownHasAUnitPerColumn) {
   EXPECT_EQ(
       markdown_text(paper_table(cases(), {})),
@@ -112,7 +141,7 @@ TEST(PaperTables, ChosenColumnsNameTheirCases) {
   EXPECT_EQ(headers({"time", "case"}), "time, ms;case;");
   EXPECT_EQ(headers({"error_total"}), "case;error total;");  // without values
   EXPECT_TRUE(message({"speed"}).starts_with(
-      "--columns: no column is 'speed' (valid: case, mesh, scene, method, n_phi, "))
+      "--columns: no column is 'speed' (valid: all, case, mesh, scene, method, n_phi, "))
       << message({"speed"});
 }
 

@@ -96,6 +96,7 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
            {"--metod=P2", "--metod=P2, perhaps --method (valid: "},
            {"solv part.geo", "solv: no such command, perhaps solve (allowed: advise, "},
            {"sovle part.geo", "sovle: no such command, perhaps solve (allowed: advise, "},
+           {"--columns=speed", "--columns: no column is 'speed' (valid: all, case, "},
            {"profile Mesh0 --error=0%", "--error: 0% (allowed: above 0% and below 100%"},
            {"profile Mesh0 --degree=9", "--degree: 9 (allowed: "},
            {"solve part.geo --eror=1%", "--eror=1%, perhaps --error (valid: "},
