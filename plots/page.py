@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Makes one self-contained HTML page from a history of nights.
+"""Makes one self-contained HTML page from a run, or from a history of nights.
 
+    page.py RESULTS [--out=page.html]
     page.py HISTORY [RESULTS] [--out=page.html]
 
-HISTORY  folder with nights/*.json, as `bench track` writes them
-RESULTS  folder of one run: its records.jsonl is listed instead of the last night's cases, and the
-         pictures in its figures/ are shown
+RESULTS  folder of one run: its cases in a table, error against time, and the pictures in its figures/
+HISTORY  folder with nights/*.json, as `bench track` writes them; without RESULTS the cases are those of the
+         last night
 
 The page fetches nothing. Exit 2: wrong input, or a file that cannot be written; one line says which,
 and the page that was there stays.
@@ -28,7 +29,7 @@ from records import (FIELDS, FINITE, FLAG, KEYS, NAME, TEXT, Kind, RecordsError,
                      json_of, lines_file, one_of, read, text_of, with_derived)
 
 PARTS = Path(__file__).resolve().parent / "page"
-SCRIPTS = ("format.js", "chart.js", "table.js", "page.js")
+SCRIPTS = ("format.js", "chart.js", "table.js", "scatter.js", "page.js")
 FORMAT = "airybench-night-1"
 OF_A_CASE = ("mesh", "scene", "method", "status")  # required by the page
 GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
@@ -41,6 +42,7 @@ HEADS = {"n_phi": "n_phi", "time_mad_s": "±"}
 OF_SERIES = [*QUANTITIES, "time_low_s", "time_high_s"]
 GROUPED_BY = ["name", "mesh", "scene", "family", "body"]  # of a case
 # They differ from night to night anyway.
+ERRORS = ("error_total", "error_force", "error_stress")  # against time
 ALWAYS_NEW = {"date", "host", "load_1min_at_start"}
 
 
@@ -92,7 +94,7 @@ NIGHT = {"date": DATE, "context": instance(dict, "an object of texts"),
 def read_history(folder: Path) -> list[Night]:
     files = sorted((folder / "nights").glob("*.json"))
     if not files:
-        raise RecordsError(f"{folder / 'nights'}: no *.json; expected what bench track writes")
+        raise RecordsError(f"{folder / 'nights'}: no *.json; expected what bench track writes, or the records of a run")
     return sorted(map(read_night, files), key=lambda night: moment(night.date))
 
 
@@ -116,11 +118,31 @@ def read_night(file: Path) -> Night:
 
 
 def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
-    """JSON for the page's script. records: of the run to list; None: the last night's cases."""
-    last, before = nights[-1], nights[-2] if len(nights) > 1 else None
-    cases = named(pd.concat([night.cases.assign(night=k) for k, night in enumerate(nights)],
-                            ignore_index=True))
+    """JSON for the page's script. nights: none for the page of one run. records: of the run to list; None: the last
+    night's cases."""
+    cases = named(pd.concat([night.cases.assign(night=k) for k, night in enumerate(nights)], ignore_index=True)) \
+        if nights else None
     run = cases[cases.night == len(nights) - 1] if records is None else named(records)
+    run = run.assign(colour=[look.colour for look in run.look])
+    return {
+        "errors": [name for name in COLUMNS if FIELDS[name]["unit"] == "1"],
+        "scatter": [key for key in ERRORS if (run[key].notna() & run.time_s.notna()).any()],
+        "columns": [{"key": key, "name": HEADS.get(key, head_of(key))} for key in COLUMNS
+                    if run[key].map(is_there).any()],
+        "rows": [{key: value for key, value in row.items() if is_there(value)}
+                 for row in run[list(dict.fromkeys((*GROUPED_BY, *COLUMNS, "status_reason", "colour")))]
+                 .to_dict("records")],
+    } | history_data(nights, cases, run)
+
+
+def history_data(nights: list[Night], cases: pd.DataFrame | None, run: pd.DataFrame) -> dict:
+    """What the page shows night by night, and where it was measured."""
+    if not nights:
+        context = next(filter(None, run.context), {})
+        return {"nights": [], "noise": {"median_s": [], "mad_s": []}, "bodies": [], "cases": [], "quantities": [],
+                "marks": [], "context": [{"key": key, "value": value, "differs": False}
+                                         for key, value in sorted(context.items())]}
+    last, before = nights[-1], nights[-2] if len(nights) > 1 else None
     bodies = list(dict.fromkeys(cases.sort_values("n_phi", kind="stable").body))
     return {
         "nights": [{"date": night.date, "revision": night.revision, "machine": night.machine}
@@ -132,15 +154,9 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
         "quantities": [{"key": key, "name": field["label"],
                         "group": GROUPS.get(field["unit"], "work")}
                        for key, field in QUANTITIES.items() if cases[key].notna().any()],
-        "errors": [name for name in COLUMNS if FIELDS[name]["unit"] == "1"],
         "marks": marks(nights),
         "last": {"failed": last.failed, "times_judged": last.times_judged,
                  "verdicts": last.verdicts, "statuses": list(last.cases.status)},
-        "columns": [{"key": key, "name": HEADS.get(key, head_of(key))} for key in COLUMNS
-                    if run[key].map(is_there).any()],
-        "rows": [{key: value for key, value in row.items() if is_there(value)}
-                 for row in run[list(dict.fromkeys((*GROUPED_BY, *COLUMNS, "status_reason")))]
-                 .to_dict("records")],
         "context": environment(last, before),
     }
 
@@ -197,30 +213,35 @@ def environment(last: Night, before: Night | None) -> list[dict]:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("history", type=Path, metavar="HISTORY")
+    parser.add_argument("folder", type=Path, metavar="HISTORY|RESULTS", help="a history, or a results folder")
     parser.add_argument("results", type=Path, metavar="RESULTS", nargs="?")
     parser.add_argument("--out", type=Path, default=Path("page.html"))
 
 
 def make(args: argparse.Namespace) -> None:
-    text = page(args.history, args.results)
+    text = page(args.folder, args.results)
     command.replace_all(args.out.parent, {args.out.name: command.text_writer(text)})
     print(args.out)
 
 
-def page(history: Path, results: Path | None) -> str:
-    nights, records = read_history(history), None
+def records_of(folder: Path) -> Path | None:
+    table = folder / "results.csv"
+    return lines_file(folder) or (table if table.exists() else None)
+
+
+def page(folder: Path, results: Path | None) -> str:
+    is_run = results is None and not (folder / "nights").is_dir() and records_of(folder) is not None
+    nights, results = ([], folder) if is_run else (read_history(folder), results)
     if results and not results.is_dir():
         raise RecordsError(f"{results}: no such folder; expected the --out of bench")
-    if results and (lines := lines_file(results)):
-        records = read(lines, OF_A_CASE)
+    records = read(file, OF_A_CASE) if results and (file := records_of(results)) else None
     data = json.dumps(page_data(nights, records), ensure_ascii=False, allow_nan=False,
                       separators=(",", ":")).replace("<", "\\u003c")
     data = escaped(data, backslash="\\\\")  # of a string of JSON
     style = part("page.css")
     script = '(() => {\n"use strict";\n' + "\n".join(map(part, SCRIPTS)) + "})();\n"
     fill = {"STYLE": style, "SCRIPT": script, "DATA": data, "STYLE_HASH": hash_of(style),
-            "SCRIPT_HASH": hash_of(script), "TITLE": html.escape(f"airybench {nights[-1].date}"),
+            "SCRIPT_HASH": hash_of(script), "TITLE": html.escape(f"airybench {nights[-1].date if nights else results.resolve().name}"),
             "FIGURES": figures(results / "figures") if results else ""}
     pieces = part("page.html").split("%%")  # text, name, text, name, ... text
     return "".join(fill[piece] if k % 2 else piece for k, piece in enumerate(pieces))
@@ -239,10 +260,13 @@ def figures(folder: Path) -> str:
     shown = []
     for file in sorted([*folder.glob("*.png"), *folder.glob("*.gif")]):
         name = html.escape(escaped(file.stem.replace("_", " ")))
+        words = file.with_suffix(".txt")  # its caption
+        about = html.escape(escaped(text_of(words))) if words.is_file() else ""
         image = base64.b64encode(file.read_bytes()).decode()
         shown.append(f'<figure><button type="button" aria-label="enlarge {name}">'
                      f'<img alt="{name}" src="data:image/{file.suffix[1:]};base64,{image}"></button>'
-                     f'<figcaption>{name}</figcaption></figure>')
+                     f'<figcaption>{f"<details><summary>{name}</summary><p>{about}</p></details>" if about else name}'
+                     '</figcaption></figure>')
     return "\n".join(shown)
 
 

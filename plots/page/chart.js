@@ -187,9 +187,14 @@ function panel(title, where, key, series, nights, marks) {
       ...gridAndTicks(key, axis, x, nights), ...dateLabels(nights, x),
       ...revisionLabels(nights, marks, x),
       ...(axis ? curves(key, axis, x, series, nights) : []), ...failuresAndMarks(x, series.status, marks));
-  followPointer(svg, nights.length, x, (k) => tipText(key, series, nights, marks, k),
-                (k) => axis && fits(key, values[k]) ?
-                    [drawn("circle", {class: "point", cx: x(k), cy: axis.y(values[k]), r: 4})] : []);
+  const nearest = (event) => {
+    const box = svg.getBoundingClientRect();
+    return Math.round(((event.clientX - box.left) * BOX.width / box.width - x(0)) / (x(1) - x(0) || 1));
+  };
+  followPoints(svg, nights.length, BOX, nearest, (k) => [x(k), 0], (k) => tipText(key, series, nights, marks, k), (k) => [
+    vertical(x(k), BOX.top, BOX.bottom, {class: "cursor"}),
+    ...(axis && fits(key, values[k]) ? [drawn("circle", {class: "point", cx: x(k), cy: axis.y(values[k]), r: 4})] : [])
+  ]);
   return element(
       "article", {class: "panel", "data-case": series.name, "data-quantity": key},
       element(
@@ -212,34 +217,31 @@ function tipText(key, {values, low, high, status}, nights, marks, k) {
   ].join("\n");
 }
 
-// A line and the value of the night nearest to the pointer; arrow keys step from night to night.
-function followPointer(svg, count, x, words, point) {
+// What is nearest to the pointer is marked and told; arrow keys step from one to the next.
+// at: the place in the box above which it is told.
+function followPoints(svg, count, box, nearest, at, words, marked) {
   const tip = document.getElementById("tip");
-  let night = count - 1, shown = [];
+  let chosen = count - 1, shown = [];
   const hide = () => {
     shown.forEach((part) => part.remove());
     tip.hidden = true;
   };
   const move = (k) => {
     hide();
-    night = Math.max(0, Math.min(count - 1, k));
-    shown = [vertical(x(night), BOX.top, BOX.bottom, {class: "cursor"}), ...point(night)];
+    chosen = Math.max(0, Math.min(count - 1, k));
+    shown = marked(chosen);
     svg.append(...shown);
-    tip.textContent = words(night);
+    tip.textContent = words(chosen);
     tip.hidden = false;
-    const box = svg.getBoundingClientRect(), at = box.left + box.width * x(night) / BOX.width;
-    tip.style.left = `${Math.max(4, Math.min(at + 10, innerWidth - tip.offsetWidth - 8))}px`;
-    tip.style.top = `${Math.max(4, box.top - tip.offsetHeight - 4)}px`;
+    const place = svg.getBoundingClientRect(), scale = place.width / box.width, [x, y] = at(chosen);
+    tip.style.left = `${Math.max(4, Math.min(place.left + scale * x + 10, innerWidth - tip.offsetWidth - 8))}px`;
+    tip.style.top = `${Math.max(4, place.top + scale * y - tip.offsetHeight - 4)}px`;
   };
-  svg.addEventListener("pointermove", (event) => {
-    const box = svg.getBoundingClientRect();
-    const at = (event.clientX - box.left) * BOX.width / box.width;
-    move(Math.round((at - x(0)) / (x(1) - x(0) || 1)));
-  });
+  svg.addEventListener("pointermove", (event) => move(nearest(event)));
   svg.addEventListener("pointerleave", hide);
   svg.addEventListener("blur", hide);
   svg.addEventListener("keydown", (event) => {
-    const to = {ArrowLeft: night - 1, ArrowRight: night + 1, Home: 0, End: count - 1}[event.key];
+    const to = {ArrowLeft: chosen - 1, ArrowRight: chosen + 1, Home: 0, End: count - 1}[event.key];
     if (event.key === "Escape") hide();
     if (to === undefined) return;
     event.preventDefault();

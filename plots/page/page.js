@@ -3,7 +3,8 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
-const DEFAULTS = {filter: "", sort: "", quantity: "time_s"};
+const DEFAULTS = {filter: "", sort: "", quantity: "time_s", error: data.scatter[0] || ""};
+const isOneRun = !data.nights.length;
 let state = readState();
 
 // What the address does not know, or the page does not have, is as by default.
@@ -14,6 +15,7 @@ function readState() {
   if (!data.columns.some((column) => column.key === state.sort.replace(/^-/, ""))) state.sort = "";
   if (!data.quantities.some((quantity) => quantity.key === state.quantity))
     state.quantity = data.quantities.length ? data.quantities[0].key : "";
+  if (!data.scatter.includes(state.error)) state.error = DEFAULTS.error;
   return state;
 }
 
@@ -29,6 +31,13 @@ function isShown(one, more = "") {
 
 const glyph = (kind, attributes = {}) =>
     element("b", {class: `glyph ${kind}`, ...attributes}, GLYPHS[kind]);
+
+// Of a run without a history.
+function headlineOfRun() {
+  const ok = data.rows.filter((row) => row.status === "ok").length;
+  byId("state").className = ok === data.rows.length ? "passed" : "failed";
+  byId("state").replaceChildren(element("h1", {}, `${ok} of ${counted(data.rows.length, "case")} ok`));
+}
 
 function headline() {
   const {failed, times_judged, verdicts, statuses} = data.last, nights = data.nights;
@@ -63,6 +72,9 @@ function chooser() {
   byId("quantity")
       .replaceChildren(...Object.entries(groups).map(
           ([label, options]) => element("optgroup", {label}, ...options)));
+  byId("error").replaceChildren(...data.scatter.map((key) => element("option", {value: key}, nameOf(key))));
+  byId("quantity").parentElement.hidden = isOneRun;
+  byId("error").parentElement.hidden = data.scatter.length < 2;
   for (const section of document.querySelectorAll("main section:not([hidden])")) {
     const link = element("a", {href: "#"}, section.querySelector("h2").textContent);
     link.addEventListener("click", (event) => {
@@ -129,13 +141,19 @@ function update(change) {
   state = {...state, ...change};
   if (byId("filter").value !== state.filter) byId("filter").value = state.filter;
   byId("quantity").value = state.quantity;
-  if (isNew("filter") || isNew("quantity")) fillPanels();
+  byId("error").value = state.error;
+  if (!isOneRun && (isNew("filter") || isNew("quantity"))) fillPanels();
+  if (state.error && (isNew("filter") || isNew("error")))
+    fillScatter(data.rows.filter((row) => isShown(row, row.status)), state.error);
   if (isNew("filter") || isNew("sort")) fillTable(data, state.sort, (sort) => update({sort}));
   history.replaceState(null, "", fragment(state));
 }
 
 byId("figures").hidden = !byId("pictures").childElementCount;
-headline();
+byId("scatter").hidden = !data.scatter.length;
+byId("history").hidden = byId("compared").hidden = isOneRun;
+byId("environment").hidden = !data.context.length;
+isOneRun ? headlineOfRun() : headline();
 chooser();
 fillContext(data.context);
 fillNoise();
@@ -143,5 +161,6 @@ enlarge();
 byId("controls").addEventListener("submit", (event) => event.preventDefault());
 byId("filter").addEventListener("input", (event) => update({filter: event.target.value}));
 byId("quantity").addEventListener("change", (event) => update({quantity: event.target.value}));
+byId("error").addEventListener("change", (event) => update({error: event.target.value}));
 addEventListener("hashchange", () => update(readState()));
 update();

@@ -171,6 +171,41 @@ class PageTest(unittest.TestCase):
         self.assertNotIn("hidden", document.one("section", id="figures").attrib)
         self.assertIn("hidden", self.shown().one("section", id="figures").attrib)
 
+    def test_a_run_alone_has_a_page(self) -> None:
+        results = self.folder / "alone"
+        (results / "figures").mkdir(parents=True)
+        (results / "figures" / "fields_a.png").write_bytes(PNG)
+        (results / "figures" / "fields_a.txt").write_text("Stresses & <more>", encoding="utf-8")
+        cases = [case | {"error_total": 0.01 * k, "context": {"cpu": "A processor"}}
+                 for k, case in enumerate(made_up.made_up_night(11)["cases"], 1)]
+        (results / "records.jsonl").write_text("".join(json.dumps(case) + "\n" for case in cases), encoding="utf-8")
+        page = self.make(results, name="alone.html")
+        document = self.shown(page=page)
+        self.assertEqual(document.one("h1").words, "7 of 8 cases ok")
+        hidden = {section.attrib["id"]: "hidden" in section.attrib for section in document.all("section")}
+        self.assertEqual(hidden, {"history": True, "scatter": False, "cases": False, "figures": False,
+                                  "environment": False})
+        self.assertEqual(len(document.all("circle", class_="case")), 7)  # one has no time
+        self.assertIn("Stresses & <more>", document.one("figcaption").words)
+        self.assertEqual(document.one("table", id="context").words, "cpuA processor")
+        filtered = self.shown("#filter=Mesh0+HYB&error=error_force", page)
+        point, = filtered.all("circle", class_="case")
+        self.assertEqual(point.attrib["data-case"], "Mesh0/default/HYBRID")
+        self.assertEqual(self.column(filtered, "method"), ["HYBRID"])
+        self.assertEqual(self.column(self.shown("#sort=-error_total", page), "error_total")[0], "8.0e-02")
+
+    def test_points_are_told_to_keys(self) -> None:
+        page = self.changed_page("told.html", ("</body>", """<script>
+            const plot = document.querySelector("#plot svg");
+            plot.dispatchEvent(new KeyboardEvent("keydown", {key: "Home", bubbles: true}));
+            document.body.dataset.tip = document.getElementById("tip").textContent;
+          </script></body>"""))
+        document = self.shown(page=page)
+        self.assertRegex(document.one("body").attrib["data-tip"], r"^Mesh0/default/HYBRID\n\d.*ms, error force \d")
+        plot = document.one("div", id="plot").one("svg")
+        self.assertEqual((plot.attrib["tabindex"], plot.attrib["role"]), ("0", "img"))
+        self.assertIn("arrow keys", plot.attrib["aria-label"])
+
     def test_one_night_is_enough_and_its_times_may_not_be_judged_yet(self) -> None:
         for name, judged, headline in (("first", {}, "Passed, nothing has changed"),
                                        ("young", {"times_judged": False}, "Passed, times are not judged yet")):
@@ -260,7 +295,7 @@ class WrongInputTest(unittest.TestCase):
 
     def test_folders(self) -> None:
         missing = self.folder / "nowhere"
-        self.expect(f"{missing}/nights: no *.json; expected what bench track writes", missing,
+        self.expect(f"{missing}/nights: no *.json; expected what bench track writes, or the records of a run", missing,
                     start=run_command)
         self.expect(f"{missing}: no such folder; expected the --out of bench", self.history,
                     missing)
