@@ -1,7 +1,8 @@
-"""What follows from other keys of records: the body that a mesh divides, the look of a family."""
+"""What follows from other keys of records: the body that a mesh divides, the look of a method."""
 import os
 import re
-from itertools import chain, cycle, islice
+import zlib
+from itertools import chain
 from typing import NamedTuple
 
 import pandas as pd
@@ -26,31 +27,44 @@ AGREE = 0.02  # relative: a curved boundary is cut by its edges
 
 
 class Look(NamedTuple):
-    """Of a family; without colour, its marker tells it from others."""
+    """Of a method, the same in every figure."""
 
     colour: str = "#777777"
     marker: str = "v"
     dashes: object = "-"
-    rank: int = 0  # among the families of a run
+    rank: float = 0  # among methods: the order of keys
+
+    def line(self, **style: object) -> dict[str, object]:
+        size = 5 * {"P": 1.35, "X": 1.3, "*": 1.7, "<": 1.15, ">": 1.15, "v": 1.15, "^": 1.15}.get(self.marker, 1)
+        return dict(color=self.colour, marker=self.marker, linestyle=self.dashes, linewidth=1.2, markersize=size,
+                    markeredgecolor="white", markeredgewidth=0.4) | style
 
 
-# Okabe and Ito's colours.
-FAMILIES = {"SYMMLQ": ("#0072B2", "o"), "3STEPCG": ("#8A3FA0", "s", (0, (5, 1.5))),
-            "3STEPD": ("#D55E00", "D"), "ALM": ("#00805C", "^"), "BLIND": ("#56B4E9", "<"),
-            "HYBRID": ("#000000", "P"), "P2": ("#C98500", "X")}
-# Of stresses of degree 2, 3, …: colours that go on from the family's, and markers.
-OF_DEGREE = {"HYBRID": (("#5B2A86", "o"), ("#B0307A", "s"), ("#E8743B", "^")),
-             "P2": (("#8A5A00", "D"), ("#573300", "*"))}
-FAMILIES |= dict(zip(("P3", "P4"), OF_DEGREE["P2"]))
-COLOURS = ("#008B9E", "#7B4B1E", "#6B8E00", "#4B4BC8", "#777777")
-MARKERS = ("v", ">", "p", "h", "d", "H", "8")  # not as many as colours, so that pairs differ
-
-# Of Figs 4 and 5, which do without colour: a marker per method, the first of its family that is
-# free; the dashes of its family, else one per preconditioner.
-PLAIN_MARKERS = {"SYMMLQ": "^v>", "3STEPCG": "sD", "3STEPD": "o", "ALM": "*", "BLIND": "<",
-                 "HYBRID": "P"}
-PLAIN_DASHES = {"BLIND": (0, (8, 2))}
-DASHES = ((0, (3, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1, 1.2)), (0, (2, 1, 2, 3)), (0, (6, 3)))
+# Method, by its general name -> colour and marker, dashes of a variant. Okabe and Ito's colours; a family shares a
+# hue. Values of a program's own parameter look as the program does.
+DASHED, DOTTED, MIXED = (0, (4, 1.5)), (0, (1, 1.2)), (0, (5, 1.5, 1, 1.5))
+METHODS = {
+    "SYMMLQ:DTIC3": ("#0072B2", "^"), "SYMMLQ:DTIC6": ("#0072B2", "v", DASHED), "SYMMLQ:SKY": ("#0072B2", ">", DOTTED),
+    "SYMMLQ": ("#0072B2", "p"),
+    "3STEPCG:DTIC3": ("#8A3FA0", "s"), "3STEPCG:DTIC6": ("#8A3FA0", "D", DASHED), "3STEPCG": ("#8A3FA0", "H"),
+    "3STEPD": ("#D55E00", "o"), "3STEPD:CHOLMOD": ("#D55E00", "s", DASHED), "3STEPD:LEAN": ("#D55E00", "^", MIXED),
+    "3STEPD:FILE": ("#D55E00", "v", DOTTED), "3STEPD:REFINED": ("#8C3D00", "D", DASHED),
+    "ALM": ("#00805C", "*"), "ALM:AUTO": ("#00805C", "p", DASHED),
+    "BLIND": ("#56B4E9", "<"), "BLIND:SCHUR": ("#2B7DAB", "X", DASHED), "BLIND:SKY": ("#56B4E9", "d", MIXED),
+    "BLIND:SCHUR:REFINED": ("#174A66", "h", DOTTED),
+    "HYBRID": ("#000000", "P"), "HYBRID:CHOLMOD": ("#555555", "s", DASHED), "HYBRID:MUMPS": ("#555555", "^", MIXED),
+    "HYBRID:CG": ("#CC79A7", "v"),
+    "HYBRID:k=2": ("#5B2A86", "o"), "HYBRID:k=3": ("#B0307A", "s"), "HYBRID:k=4": ("#E8743B", "^"),
+    "P2": ("#C98500", "X"), "P3": ("#8A5A00", "D"), "P4": ("#573300", "*"),
+    "EXTERNAL:calculix-mortar": ("#7B4B1E", ">"), "EXTERNAL:calculix-penalty": ("#6B8E00", "p"),
+    "EXTERNAL:fenicsx-nitsche": ("#4B4BC8", "h"), "EXTERNAL:freefem-uzawa": ("#B00020", "d"),
+    "EXTERNAL:getfem-coefficients": ("#008B9E", "v"), "EXTERNAL:getfem-nodes": ("#008B9E", "^", DASHED),
+    "EXTERNAL:hybrid-petsc": ("#777777", "H"), "EXTERNAL:fortran-mumps": ("#777777", "8", DASHED),
+    "EXTERNAL:scipy-newton": ("#A0522D", "<", DASHED), "EXTERNAL:siconos-nsgs": ("#9A9A00", "o"),
+    "EXTERNAL:siconos-admm": ("#9A9A00", "s", DASHED), "EXTERNAL:siconos-cpg": ("#9A9A00", "D", MIXED),
+    "EXTERNAL:siconos-lemke": ("#9A9A00", "X", DOTTED), "EXTERNAL:siconos-nsn-ac": ("#5C5C00", "P", DASHED)}
+COLOURS = ("#008B9E", "#7B4B1E", "#6B8E00", "#4B4BC8", "#B00020", "#777777")  # of families that are not in the table
+MARKERS = "ovs^D<P>Xdphh8H"
 
 
 def with_bodies(table: pd.DataFrame) -> pd.DataFrame:
@@ -104,37 +118,26 @@ def catalogue_mesh(mesh: str) -> str | None:
     return found[1] if found and found[1] in SIZES else None
 
 
-def looks_of(families: list[str]) -> dict[str, Look]:
-    looks = {family: Look(*look)._replace(rank=k)
-             for k, (family, look) in enumerate(FAMILIES.items())}
-    for k, family in enumerate(family for family in families if family not in FAMILIES):
-        looks[family] = Look(COLOURS[k % len(COLOURS)], MARKERS[k % len(MARKERS)],
-                             rank=len(FAMILIES) + k)
+def looks_of(families: dict[str, str]) -> dict[str, Look]:
+    """Method, by its general name, to its family -> its look. What the table does not have begins at a place that its
+    name gives, so that it looks the same in most runs, and takes the next that is free."""
+    looks, ranks = {}, {name: k for k, name in enumerate(METHODS)}
+    for name, family in families.items():
+        known = METHODS.get(name) or (METHODS.get(family) if name.startswith("EXTERNAL:") else None)
+        if known:
+            looks[name] = Look(*known)._replace(rank=ranks.get(name, ranks[family]))
+    for name, family in families.items():
+        if name not in looks:
+            first = zlib.crc32(family.encode()) % len(COLOURS)
+            colours = METHODS[family][:1] if family in METHODS else COLOURS[first:] + COLOURS[:first]
+            first = zlib.crc32(name.encode()) % len(MARKERS)
+            pairs = [(colour, marker) for colour in colours for marker in MARKERS[first:] + MARKERS[:first]]
+            taken = {look[:2] for look in looks.values()}
+            colour, marker = next((pair for pair in pairs if pair not in taken), pairs[0])
+            looks[name] = Look(colour, marker, DASHED if name != family else "-", ranks.get(family, len(ranks)) + 0.5)
     return looks
 
 
 def with_looks(table: pd.DataFrame) -> pd.DataFrame:
-    looks = looks_of(list(dict.fromkeys(table.family)))
-    degrees = table.degree if "degree" in table else [1] * len(table)
-    return table.assign(look=[of_degree(looks[family], family, degree)
-                              for family, degree in zip(table.family, degrees)])
-
-
-def of_degree(look: Look, family: str, degree: int) -> Look:
-    own = OF_DEGREE.get(family, ())
-    return look if not 2 <= degree <= 1 + len(own) else \
-        look._replace(colour=own[degree - 2][0], marker=own[degree - 2][1])
-
-
-def plain_looks(methods: dict[str, tuple[str, str]]) -> dict[str, tuple[str, object]]:
-    """Name -> family, preconditioner to name -> marker, dashes; in the same order."""
-    reserved = set("".join(PLAIN_MARKERS.values()))
-    spare = [marker for marker in "XpdhH8v<>^" if marker not in reserved]
-    dashes = dict(zip(dict.fromkeys(name for _, name in methods.values() if name), cycle(DASHES)))
-    looks: dict[str, tuple[str, object]] = {}
-    for name, (family, preconditioner) in methods.items():
-        taken = [marker for marker, _ in looks.values()]
-        marker = next(chain((m for m in chain(PLAIN_MARKERS.get(family, ""), spare)
-                             if m not in taken), islice(cycle(spare), len(looks), None)))
-        looks[name] = marker, PLAIN_DASHES.get(family) or dashes.get(preconditioner, "-")
-    return looks
+    looks = looks_of(dict(zip(table.general_name, table.family)))
+    return table.assign(look=table.general_name.map(looks))

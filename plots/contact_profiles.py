@@ -21,20 +21,17 @@ from functools import partial
 import matplotlib
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from command import Made, results_and_out, run, text_writer
-from drawing import DPI, PAGE_WIDTH, STYLE, for_papers, log_axis, panel_at, sheet, write_small_png
-from figure.profile import fractions, jumps, ratios
+from catalogue import looks_of
+from drawing import DPI, COLUMN_WIDTH, PAGE_WIDTH, STYLE, Sheet, for_papers, log_axis, write_small_png
+from figure.contact import LOOKS
+from figure.profiles import fractions, jumps, ratios
 from records import RecordsError, is_without_body, read_lines
+from words import plain
 
 PRECISIONS = (1e-4, 1e-8)
 FEWEST_SOLVERS, FEWEST_PROBLEMS = 2, 3
-LEFT, TOP, PANEL, BETWEEN = 0.6, 0.35, 2.2, 0.7  # inches
-COLOURS = ("#000000", "#D55E00", "#0072B2", "#00805C", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F")
-DASHES = ("-", (0, (4, 2)), (0, (1, 1.5)), (0, (5, 1, 1, 1)))
-
 
 def solver_of(record: dict) -> str:
     program = record["method"].removeprefix("EXTERNAL:")
@@ -118,32 +115,30 @@ def solvers_and_problems(records: list[dict]) -> tuple[int, int]:
     return len(set(map(solver_of, records))), len({record["mesh"] for record in records})
 
 
-def draw(records: list[dict]) -> Figure:
+def draw(records: list[dict], width: float = PAGE_WIDTH) -> Sheet:
     solvers, problems = solvers_and_problems(records)
-    figure = sheet(TOP + len(PRECISIONS) * (PANEL + BETWEEN),
-                   f"Profiles: {solvers} contact solvers on {problems} problems",
-                   "The share of problems that a solver solves within a factor of the fastest "
-                   "solver's time. Solved: Siconos' error of the answer is at most the precision, "
-                   "whatever the solver says of it. Each precision has its own runs, which stop there. "
-                   "Problems that a program does not take count as not solved.")
-    for k, precision in enumerate(PRECISIONS):
-        axes = panel_at(figure, LEFT, TOP + k * (PANEL + BETWEEN), PAGE_WIDTH - LEFT - 1.9, PANEL)
-        draw_panel(axes, costs_of(records, precision), precision)
-    return figure
-
-
-def draw_panel(axes: Axes, costs: pd.DataFrame, precision: float) -> None:
-    steps = profile_of(costs)
-    high = 1.2 * max([10.0, *(at[-1] for at, _ in steps.values() if len(at))])
-    axes.set(xscale="log", xlim=(1, high), ylim=(0, 1.04), ylabel="share of problems solved",
-             xlabel=f"time over that of the fastest solver; error at most {precision:.0e}")
-    log_axis(axes.xaxis)
-    for s, (solver, (at, share)) in enumerate(steps.items()):
-        ends = share[-1] if len(share) else 0
-        axes.step(np.r_[1, at, high], np.r_[(at[:1] == 1) * share[:1] if len(at) else 0, share, ends],
-                  where="post", color=COLOURS[s % len(COLOURS)], linewidth=1.4, label=solver,
-                  linestyle=DASHES[s // len(COLOURS) % len(DASHES)])
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, fontsize=8)
+    programs = [name for record in records if (name := record["method"]).startswith("EXTERNAL:")]
+    looks = LOOKS | {name.removeprefix("EXTERNAL:"): look for name, look in
+                     looks_of(dict(zip(programs, programs))).items()}
+    names = list(dict.fromkeys(map(solver_of, records)))
+    sheet = Sheet(width, f"Profiles: {solvers} contact solvers on {problems} problems",
+                  "The share of problems that a solver solves within a factor of the fastest "
+                  "solver's time. Solved: Siconos' error of the answer is at most the precision, "
+                  "whatever the solver says of it. Each precision has its own runs, which stop there. "
+                  "Problems that a program does not take count as not solved.", panels=len(PRECISIONS),
+                  key=[(plain(name), looks[name].line()) for name in names])
+    for axes, precision in zip(sheet.panels, PRECISIONS):
+        steps = profile_of(costs_of(records, precision))
+        high = 1.2 * max([10.0, *(at[-1] for at, _ in steps.values() if len(at))])
+        axes.set(xscale="log", xlim=(1, high), ylim=(0, 1.04), ylabel="share of problems solved",
+                 title=f"error at most {precision:.0e}", xlabel="time over that of the fastest solver")
+        log_axis(axes.xaxis)
+        for solver, (at, share) in steps.items():
+            ends = share[-1] if len(share) else 0
+            axes.step(np.r_[1, at, high], np.r_[(at[:1] == 1) * share[:1] if len(at) else 0, share, ends],
+                      where="post", **looks[solver].line(marker=None, linewidth=1.4))
+            axes.plot(at, share, **looks[solver].line(linestyle="none", markersize=4))
+    return sheet
 
 
 def make(args: argparse.Namespace) -> None:
@@ -162,9 +157,11 @@ def make(args: argparse.Namespace) -> None:
     with matplotlib.rc_context(STYLE):
         if solvers >= FEWEST_SOLVERS and problems >= FEWEST_PROBLEMS:
             figure = draw(records)
-            files |= for_papers(figure, "contact_profiles") if args.vector else {}
+            papers = for_papers(draw(records, COLUMN_WIDTH)) if args.vector else {}
+            files |= {f"contact_profiles{suffix}": write for suffix, write in papers.items()}
             files |= {"contact_profiles.png": partial(write_small_png, figure, DPI),
-                      "contact_profiles.csv": text_writer(table_of(records).to_csv(index=False))}
+                      "contact_profiles.csv": text_writer(table_of(records).to_csv(index=False)),
+                      "contact_profiles.txt": text_writer(figure.caption)}
         else:
             print(f"contact_profiles: left out: {solvers} solvers on {problems} contact problems; "
                   f"expected at least {FEWEST_SOLVERS} on {FEWEST_PROBLEMS}")

@@ -1,6 +1,7 @@
 """Sheets, axes and files of figures. Lengths in inches, type in points."""
 import math
 import re
+import textwrap
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import partial
@@ -16,16 +17,19 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from PIL import Image
 
 from command import text_writer
 from records import Row
-from words import plain, short, wrapped
+from words import plain, short, width_of
 
 # A page shows a figure about 830 pixels wide: 100 an inch of the widest, 7 points as 9.7 pixels.
 PAGE_WIDTH, SMALLEST_PT = 8.3, 7
+COLUMN_WIDTH = 3.46  # of a paper: 88 mm
+NARROWEST = 2.6  # a panel
 TYPE, MATH = 8, 10  # points; indices and exponents are set at 0.7 MATH
-LINE, MARGIN = 0.155, 0.1  # between lines of a caption; of the sheet
+LINE, MARGIN = 0.155, 0.1  # between lines of words; of the sheet
 STYLE = {"font.size": TYPE, "axes.linewidth": 0.6, "axes.labelsize": TYPE, "axes.titlesize": TYPE,
          "xtick.labelsize": TYPE, "ytick.labelsize": TYPE, "legend.fontsize": TYPE,
          "grid.color": "0.88", "grid.linewidth": 0.4, "axes.axisbelow": True,
@@ -34,35 +38,69 @@ STYLE = {"font.size": TYPE, "axes.linewidth": 0.6, "axes.labelsize": TYPE, "axes
          # For publishers: fonts whole in a PDF (TrueType, no Type 3), words of an SVG as curves, which look
          # the same where the font is missing.
          "pdf.fonttype": 42, "svg.fonttype": "path"}
-STOP = dict(marker="*", markersize=17, markeredgecolor="black", markeredgewidth=0.8,
-            linestyle="none", zorder=7)  # the paper's stop
-HEADROOM = 0.1  # of an axes' height, for arrows without a value
+CROSS = dict(marker="x", markersize=6, markeredgecolor="#D00060", markeredgewidth=0.9, linestyle="none", zorder=6)
 # Of a colour's value: what is left of it in steps of 6.
 STEPS = (255 - (255 - np.arange(256) + 2) // 6 * 6).astype(np.uint8)
-VECTOR_DPI, DPI, COLOURS = 200, 120, 128
+VECTOR_DPI, DPI, COLOURS = 200, 120, 128  # of shades in an SVG or PDF; of a PNG
+
+
+class Sheet(Figure):
+    """Panels in rows, and below them a key. The title and the caption are written beside the picture."""
+
+    def __init__(self, width: float, title: str, *texts: str, panels: int = 1, in_row: int = 2,
+                 height: float = 2.7, narrowest: float = NARROWEST, key: Iterable[tuple[str, dict]] = (),
+                 **axes: object) -> None:
+        """key: words and the style of a line. axes: properties of all panels, such as sharey=True."""
+        key = list(key)
+        in_row = max(1, min(panels, in_row, int(width / narrowest)))
+        rows = math.ceil(panels / in_row)
+        entry = 0.5 + max((width_of(words, TYPE) for words, _ in key), default=0) / 72
+        columns = max(1, min(len(key), int((width - 0.2) / entry)))
+        below = LINE * 1.2 * math.ceil(len(key) / columns) + 0.12 * bool(key)
+        size = rows * height + below
+        super().__init__(figsize=(width, size), layout="constrained")
+        self.get_layout_engine().set(rect=(0, below / size, 1, 1 - below / size), w_pad=0.06, h_pad=0.06)
+        self.caption = caption_of(title, *texts)
+        self.panels = list(self.subplots(rows, in_row, squeeze=False, **axes).flat)
+        for spare in self.panels[panels:]:
+            spare.remove()
+        del self.panels[panels:]
+        for panel in self.panels:
+            panel.grid(which="major")
+            panel.spines[["top", "right"]].set_visible(False)
+        if key:
+            self.legend([Line2D([], [], **style) for _, style in key], [words for words, _ in key], ncols=columns,
+                        loc="lower center", frameon=False, borderaxespad=0.3, handlelength=2.6, columnspacing=1.2,
+                        labelspacing=0.25)
+
+
+def caption_of(title: str, *texts: str) -> str:
+    """What is written beside a picture: a line, and a paragraph for each text."""
+    return "\n\n".join([title, *(textwrap.fill(" ".join(text.split(" ")), 100) for text in texts if text)]) + "\n"
+
+
+def keys(rows: Iterable[Row], name: Callable[[Row], str] = lambda row: plain(row.label)) -> list[tuple[str, dict]]:
+    """A line each for the key, in the order of methods."""
+    return list({name(row): row.look.line() for row in sorted(rows, key=lambda row: (row.look.rank, row.method))}
+                .items())
 
 
 @dataclass(frozen=True)
 class Drawing:
     name: str                          # of its files
     rows: list[Row]                    # that it shows, or names
-    draw: Callable[..., Figure | str]  # of rows and options: the figure, or why there is none
+    draw: Callable[..., Sheet | str]   # of rows, width and options: the figure, or why there is none
     table: Callable[[list[Row]], str]  # of rows: the numbers drawn, a CSV next to the figure
-    vector: bool = False               # as .svg and .png; else as a small .png
     options: dict[str, object] = field(default_factory=dict)
 
-    def figure(self) -> Figure | str:
-        return self.draw(self.rows, **self.options)
+    def figure(self, width: float = PAGE_WIDTH) -> Sheet | str:
+        return self.draw(self.rows, width, **self.options)
 
-    @property
-    def suffixes(self) -> tuple[str, ...]:
-        return (".svg", ".png", ".csv") if self.vector else (".png", ".csv")
-
-    def writer(self, figure: Figure, suffix: str) -> Callable[[Path], object]:
-        if suffix == ".csv":
-            return text_writer(self.table(self.rows))
-        return partial(write, figure) if self.vector else \
-            partial(write_small_png, figure, DPI, colours=COLOURS)
+    def writers(self, figure: Sheet, vector: bool) -> dict[str, Callable[[Path], object]]:
+        """By suffix; vector: also as .svg and .pdf, as wide as a column of a paper."""
+        found = {".png": partial(write_small_png, figure, DPI, colours=COLOURS),
+                 ".csv": text_writer(self.table(self.rows)), ".txt": text_writer(figure.caption)}
+        return found | for_papers(self.figure(COLUMN_WIDTH)) if vector else found
 
 
 def write(figure: Figure, path: Path) -> None:
@@ -71,9 +109,9 @@ def write(figure: Figure, path: Path) -> None:
     figure.savefig(path, dpi=VECTOR_DPI, metadata=metadata[path.suffix])
 
 
-def for_papers(figure: Figure, name: str) -> dict[str, Callable[[Path], object]]:
-    """What --vector adds."""
-    return {f"{name}{suffix}": partial(write, figure) for suffix in (".svg", ".pdf")}
+def for_papers(figure: Figure) -> dict[str, Callable[[Path], object]]:
+    """What --vector adds, by suffix."""
+    return {suffix: partial(write, figure) for suffix in (".svg", ".pdf")}
 
 
 def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None,
@@ -97,18 +135,6 @@ def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = 
 def file_name(stem: str, mesh: str) -> str:
     """Without the letters of a mesh's name that a file's should not have."""
     return f"{stem}_{re.sub('[^A-Za-z0-9._-]', '-', mesh)}"
-
-
-def sheet(body: float, title: str, *texts: str, width: float = PAGE_WIDTH) -> Figure:
-    """A figure with its title above and a caption below; `body`: the height between them."""
-    lines = wrapped(texts, width - 2 * MARGIN, TYPE)
-    height = body + LINE * len(lines) + MARGIN
-    figure = Figure(figsize=(width, height))
-    text_at(figure, MARGIN, 0.08, plain(title), fontsize=11, weight="bold")
-    for k, line in enumerate(lines):
-        figure.text(MARGIN / width, (height - body - 0.02 - k * LINE) / height, plain(line),
-                    va="top", fontsize=TYPE)
-    return figure
 
 
 def text_at(figure: Figure, left: float, top: float, words: str, **style: object) -> None:
@@ -146,19 +172,6 @@ def bar_below(figure: Figure, shades: ScalarMappable, left: float, width: float,
     return colour_bar(figure, shades, left * across, height - 0.48, width * across, words)
 
 
-def side_by_side(figure: Figure, titles: Iterable[str], left: float, top: float, height: float,
-                 gap: float, right: float = 0.1) -> list[Axes]:
-    titles = list(titles)
-    width = (figure.get_size_inches()[0] - left - right - (len(titles) - 1) * gap) / len(titles)
-    row = []
-    for k, title in enumerate(titles):
-        axes = panel_at(figure, left + k * (width + gap), top, width, height)
-        axes.set_title(plain(title), pad=3)
-        axes.tick_params(labelleft=k == 0)
-        row.append(axes)
-    return row
-
-
 def log_axis(axis: Axis) -> None:
     """Of an axis with its limits set: as many labels a decade as there is room for."""
     low, high = axis.get_view_interval()
@@ -190,14 +203,12 @@ def log_log(axes: Axes, **properties: object) -> None:
     axes.spines[["right"]].set_visible(False)
 
 
-def log_limits(values: Iterable[float | None], pad: float = 1.5) -> tuple[float, float]:
-    """At least a decade; with headroom where there is a case without a value."""
-    values = list(values)
-    known = [value for value in values if value is not None] or [1]
-    low, high = min(known) / pad, max(known) * pad
+def log_limits(values: Iterable[float], pad: float = 1.5) -> tuple[float, float]:
+    """At least a decade."""
+    values = list(values) or [1]
+    low, high = min(values) / pad, max(values) * pad
     wider = math.sqrt(max(10 * low / high, 1))
-    low, high = low / wider, high * wider
-    return low, high if None not in values else high * (high / low) ** (HEADROOM / (1 - HEADROOM))
+    return low / wider, high * wider
 
 
 def error_floor(errors: Iterable[float]) -> float:

@@ -79,7 +79,7 @@ def highest_but(values: np.ndarray, weights: np.ndarray, part: float, times: flo
 def highest_shear(s: Fields) -> float:
     """MPa; of 99.5 % of the area."""
     shear = largest_shear(s.stress)
-    return highest_but(shear.ravel(), np.repeat(areas(s), shear[0].size), 0.995, 1.6)
+    return highest_but(shear.ravel(), np.repeat(areas(s), shear[0].size), 0.995, 1.2)
 
 
 def highest_pressure(s: Fields) -> float:

@@ -27,11 +27,27 @@ import matplotlib
 
 import command
 from documents import documents_of
-from drawing import STYLE, Drawing, for_papers
+from drawing import STYLE, Drawing
 from messages import in_figures
 from records import Row, read_run, rows_of
 from selection import comparable, grouped, has_other_solver
 from words import cases_by_reason
+
+
+# Names of earlier figures, which papers and scripts may use -> that of the figure that shows the same.
+EARLIER = {"figure3": "preconditioners", "figure4": "size", "figure5": "size", "all_methods": "size", "growth": "size",
+           "work_precision": "error_time_forces", "stop_and_error": "error_time_forces", "pareto": "error_time",
+           "overview": "error_time", "degrees": "error_time", "peers_penalty": "error_time", "adaptive": "convergence",
+           "stability": "outcomes", "adapted_methods": "outcomes_adapted"}
+
+
+def under_today(only: str | None) -> str | None:
+    """Globs of figures, earlier names replaced: figure4_paper_stop -> size_paper_stop."""
+    def today(glob: str) -> str:
+        earlier = max((name for name in EARLIER if glob.startswith(name)), key=len, default="")
+        rest = glob.removeprefix(earlier)
+        return EARLIER[earlier] + ("" if earlier == "work_precision" else rest) if earlier and rest[:1] in ("", "_") else glob
+    return only and ",".join(map(today, only.split(",")))
 
 
 def drawings_of(rows: list[Row]) -> list[Drawing]:
@@ -64,21 +80,18 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None, vector: bool =
     report, drawn, made = [], [], command.Made(out, "figures")
     writers: dict[str, Callable[[Path], object]] = {}
     drawings, documents = drawings_of(rows), documents_of(rows)
-    names = command.selected(only, "figure of these records", [*(drawing.name for drawing in drawings), *list(documents)[:-1]])
+    names = command.selected(under_today(only), "figure of these records", [*(drawing.name for drawing in drawings), *list(documents)[:-1]])
     for drawing in drawings:
         if drawing.name not in names:
             continue
         result = drawing.figure()
         if isinstance(result, str):
-            old = [name for suffix in drawing.suffixes
-                   if (out / (name := drawing.name + suffix)).exists()
-                   and (only is not None or name not in made.earlier())]
-            stays = f"; an earlier {old[0]} stays" if old else ""
-            report.append(f"{drawing.name}: left out: {result}{stays}")
+            old = f"{drawing.name}.png"
+            stays = (out / old).exists() and (only is not None or old not in made.earlier())
+            report.append(f"{drawing.name}: left out: {result}" + f"; an earlier {old} stays" * stays)
             continue
         drawn += drawing.rows
-        own = {drawing.name + suffix: drawing.writer(result, suffix) for suffix in drawing.suffixes}
-        own |= for_papers(result, drawing.name) if vector else {}
+        own = {drawing.name + suffix: writer for suffix, writer in drawing.writers(result, vector).items()}
         writers |= own
         suffixes = ", ".join(name.removeprefix(drawing.name) for name in own)
         report.append(f"{out / drawing.name}{suffixes}: "

@@ -33,30 +33,29 @@ from matplotlib.figure import Figure
 import command
 import drawing
 from case_names import case_of_file
-from drawing import PAGE_WIDTH, axes_at, bar_below, text_at, for_papers, write_small_png
-from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
+from drawing import PAGE_WIDTH, axes_at, bar_below, caption_of, for_papers, write_small_png
+from field_drawing import (COLORMAP, areas, draw_body, draw_boundary, enlargement,
                            largest_load, scales_of)
 from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_cut, is_tall,
                          label_body, layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, record_of, recorded
 from load_path import LoadPath, read_path, table_of
-from load_path_drawing import FIXED, draw_path, frames, frames_of, write_gif
-from words import csv_of, percent, plain, width_of as words_width
+from load_path_drawing import FIXED, caption as caption_of_path, draw_path, frames, frames_of, write_gif
+from words import csv_of, percent
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = drawing.STYLE | {"axes.titlesize": 9, "xtick.labelsize": 7, "ytick.labelsize": 7}
 DPI = 120
-WIDTH, FOOTER, LINE, ROOT = PAGE_WIDTH, 0.62, 0.15, 0.12  # inches: of words, and more for a root
+WIDTH, FOOTER, LINE = PAGE_WIDTH, 0.62, 0.15  # inches
 BODY = 5.0  # highest body in its own picture
-STRESS = (r"Colour: the largest shear stress in the plane, "
-          r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, "
-          "of the stresses as they were solved, not averaged.")
+STRESS = ("Colour: the largest shear stress in the plane, τ_max = √(((σ_xx − σ_yy)/2)² + σ_xy²), of the stresses as they "
+          "were solved, not averaged; the brightest stands for this or more where a peak is singular.")
 FACES = ("{}: contact faces, enlarged and straightened, with elements, states of the points ({} per "
          "edge), pressure, friction.")
 POINTS = {2: "two", 3: "three", 4: "four", 5: "five"}
-CUT = "Of a face that is open for the most part: where it touches, and a little more."
+CUT = "Mostly open faces: contact zone only."
 OUTLINE = "Dashed: the outline with enlarged displacements"
-WALLS = (". A wall keeps its shape: it meets the outline where the body\ntouches it, on average; elsewhere "
+WALLS = (". A wall keeps its shape: it meets the outline where the body touches it, on average; elsewhere "
          "the enlarged outline may cross it.")
 BODIES = ", in which bodies that touch may cross each other."
 # Pictures of the error: inches, of a map and of levels of a loop.
@@ -65,11 +64,11 @@ SHADES = 24  # few, for a small file
 SMALL_PNG = dict(colours=200, kept=[*FIXED, *colormaps["cividis"].resampled(SHADES).colors])
 DECADES = 5  # of the scale of a map at most
 TENTH = 0.1
-HIGHEST, LEFT, RIGHT, TOP, BOTTOM, NARROWEST = 5.0, 0.55, 0.15, 0.62, 0.92, 5.5  # of a map, inches
+HIGHEST, LEFT, RIGHT, TOP, BOTTOM, NARROWEST = 5.0, 0.55, 0.15, 0.12, 0.92, 5.5  # of a map, inches
 LEVEL = re.compile(r"(?P<mesh>.+)~adapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
 OF_DEGREE = re.compile(r"(?P<mesh>.+)~adapt(?P<level>\d+)(k\d)?(?P<case>--.+--HYBRID)(\+k=(?P<degree>\d))?")
 SHOWN, LEVEL_LEFT, GAP, LEVEL_HIGHEST = 3, 0.5, 0.12, 4.2  # of levels, inches
-TITLE, WORDS, BARS = 0.55, 0.34, 0.75
+TITLE, WORDS, BARS = 0.3, 0.34, 0.75
 
 Level = tuple[Fields, np.ndarray, float | None]  # fields, shares (T,) of e², total error
 
@@ -82,12 +81,8 @@ def compose(rows: list[list[Fields]]) -> Figure:
     if len(rows) == len(rows[0]) == 1:
         widths = [WIDTH if is_tall(rows[0][0]) else min(WIDTH, width_of(rows[0][0], BODY))]
     heights = [max(layout_of(s, width).height for s in row) for row, width in zip(rows, widths)]
-    words = "\n".join(heading(shown, scales))
-    header = 0.1 + LINE * (1 + words.count("\n")) + ROOT
-    figure = Figure(figsize=(WIDTH, header + sum(heights) + FOOTER))
+    figure = Figure(figsize=(WIDTH, sum(heights) + FOOTER))
     top = figure.get_size_inches()[1]
-    figure.text(0.5, 1 - 0.1 / top, words, ha="center", va="top")
-    top -= header
     for row, width, height in zip(rows, widths, heights):
         for k, s in enumerate(row):
             draw_panel(figure, s, WIDTH / 2 + (k - len(row) / 2) * width, top, width,
@@ -101,8 +96,8 @@ def words_of_file(name: str) -> str:
     return case_of_file(name).replace("/", ", ")
 
 
-def heading(solutions: list[Fields], scales: Scales) -> list[str]:
-    lines = [STRESS]
+def caption(solutions: list[Fields]) -> str:
+    scales, lines = scales_of(solutions), [STRESS]
     touching = [s for s in solutions if len(s.edges)]
     if touching:
         places = sorted({"next to" if is_tall(s) else "below" for s in touching})
@@ -115,7 +110,7 @@ def heading(solutions: list[Fields], scales: Scales) -> list[str]:
         has_walls = any(s.at_wall(face) for s in touching for face in s.faces())
         lines.append(OUTLINE + (WALLS if has_walls else BODIES))
     lines += dict.fromkeys(s.of_step for s in solutions if s.of_step)
-    return [*lines, plain(f"Scene and method: {words_of_file(solutions[0].name).partition(', ')[2]}")]
+    return caption_of(", ".join(words_of_file(s.name) for s in solutions), *lines)
 
 
 def share_of_worst(share: np.ndarray) -> float:
@@ -152,14 +147,14 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
     draw_shares(axes, s, share, norm, shades, edgecolor="white",
                 linewidths=np.clip(10 / math.sqrt(len(share)), 0.06, 0.4))
     label_body(axes)
-    title = f"{words_of_file(s.name)}: discretisation error by triangle"
-    text_at(figure, 0.1, 0.1, plain(title), weight="bold",
-            fontsize=10 * min(1, 72 * (width - 0.2) / words_width(title, 10, "bold")))
-    text_at(figure, 0.1, 0.32, f"{len(share)} triangles; the worst tenth of them "
-            f"has {most_of(share_of_worst(share))} of the squared error.")
     bar_below(figure, ScalarMappable(norm, shades), 0.15, 0.7, "a triangle's share of the squared error" +
              "; darkest: this or less" * bool(share.min() < norm.vmin))
     return figure
+
+
+def caption_of_map(s: Fields, share: np.ndarray) -> str:
+    return caption_of(f"{words_of_file(s.name)}: discretisation error by triangle", f"{len(share)} triangles; the worst "
+                      f"tenth of them has {most_of(share_of_worst(share))} of the squared error.")
 
 
 def map_table(s: Fields, share: np.ndarray) -> str:
@@ -204,9 +199,6 @@ def draw_levels(levels: list[Level], titles: tuple[str, ...] = ()) -> Figure:
     if height > LEVEL_HIGHEST:
         panel, height = panel * LEVEL_HIGHEST / height, LEVEL_HIGHEST
     figure = Figure(figsize=(PAGE_WIDTH, above + 2 * (height + WORDS) + BARS))
-    by = ", by the degree of the stresses" if titles else ""
-    text_at(figure, 0.1, 0.08, plain(f"{levels[0][0].mesh.split('+')[0]}, adapted{by}"), fontsize=11,
-            weight="bold")
     step = (PAGE_WIDTH - LEVEL_LEFT) / len(levels)
     norm = LogNorm(1e-2, 1e2, clip=True)
     shades = colormaps["cividis"].resampled(SHADES)
@@ -231,6 +223,11 @@ def draw_levels(levels: list[Level], titles: tuple[str, ...] = ()) -> Figure:
     return figure
 
 
+def caption_of_levels(levels: list[Level], titles: tuple[str, ...]) -> str:
+    return caption_of(f"{levels[0][0].mesh.split('+')[0]}, adapted" + ", by the degree of the stresses" * bool(titles),
+                      "Above: the largest shear stress in the plane; below: the squared error of a triangle over the mean.")
+
+
 def levels_table(levels: list[Level]) -> str:
     return csv_of(levels, ("mesh", lambda level: level[0].mesh),
                   ("n_phi", lambda level: level[0].n_phi),
@@ -246,18 +243,19 @@ def write(figure: Figure, path: Path) -> None:
         write_small_png(figure, DPI, path, **SMALL_PNG)
 
 
-def save(made: command.Made, name: str, table: str, vector: Figure | None,
+def save(made: command.Made, name: str, words: str, table: str, vector: Figure | None,
          **writers: Callable[[Path], object]) -> None:
-    files = for_papers(vector, name) if vector else {}
+    files = {f"{name}{suffix}": write for suffix, write in for_papers(vector).items()} if vector else {}
     files |= {f"{name}.{suffix}": write for suffix, write in writers.items()}
-    made.replace(files | {f"{name}.csv": command.text_writer(table)})
+    made.replace(files | {f"{name}.csv": command.text_writer(table), f"{name}.txt": command.text_writer(words)})
     print(*(made.folder / file for file in files), sep="\n")
 
 
 def save_composed(made: command.Made, name: str, rows: list[list[Fields]], vector: bool,
                   *suffixes: str) -> None:
     figure = compose(rows)
-    save(made, name, contact_points([s for row in rows for s in row]), figure if vector else None,
+    shown = [s for row in rows for s in row]
+    save(made, name, caption(shown), contact_points(shown), figure if vector else None,
          **dict.fromkeys(suffixes, partial(write, figure)))
 
 
@@ -317,7 +315,7 @@ def draw(args: argparse.Namespace) -> None:
         if all(maps[name][1].any() for name in names_of_levels):
             shown = [(*maps[name], record_of(records, name).get("error_total")) for name in names_of_levels]
             figure = draw_levels(shown, titles)
-            save(made, picture, levels_table(shown), figure if args.vector else None,
+            save(made, picture, caption_of_levels(shown, titles), levels_table(shown), figure if args.vector else None,
                  png=partial(write_small_png, figure, LEVELS_DPI, **SMALL_PNG))
     for name in with_map:
         s, share = maps[name]
@@ -325,7 +323,7 @@ def draw(args: argparse.Namespace) -> None:
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
         figure = draw_map(s, share)
-        save(made, f"error_map_{name}", map_table(s, share), figure if args.vector else None,
+        save(made, f"error_map_{name}", caption_of_map(s, share), map_table(s, share), figure if args.vector else None,
              png=partial(write_small_png, figure, DPI, **SMALL_PNG))
     draw_paths(args, made, {name: paths[name] for name in with_path}, records)
     if args.only is None and (gone := made.remove_others()):
@@ -368,7 +366,7 @@ def draw_paths(args: argparse.Namespace, made: command.Made, paths: dict[str, Lo
         if args.animate and path.has_body.any():
             of_steps = {k: read_step(args.results, name, k, records) for k in frames_of(path)}
             writers["gif"] = partial(write_gif, frames(path, of_steps))
-        save(made, f"load_path_{name}", table_of(path), figure if args.vector else None, **writers)
+        save(made, f"load_path_{name}", caption_of_path(path), table_of(path), figure if args.vector else None, **writers)
 
 
 def main() -> None:

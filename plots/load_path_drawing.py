@@ -13,14 +13,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from PIL import Image
 
-from drawing import PAGE_WIDTH, axes_at, colour_bar, panel_at, sheet, text_at
-from field_drawing import COLORMAP, STATE, Scales, scales_of
+from drawing import PAGE_WIDTH, axes_at, caption_of, colour_bar, panel_at, text_at
+from field_drawing import COLORMAP, STATE, Scales, highest_but, scales_of
 from field_panel import draw_legend, draw_panel, layout_of
 from fields import STATES, Fields
 from load_path import LoadPath, returns
 from words import plain
 
-LEFT, TOP, GAP, HEIGHT, BAR, BOTTOM = 0.6, 0.38, 0.34, 2.9, 0.55, 0.5  # inches, of the maps
+LEFT, TOP, GAP, HEIGHT, BAR, BOTTOM = 0.6, 0.1, 0.34, 2.9, 0.55, 0.5  # inches, of the maps
 LOOP_TOP, LOOP_HEIGHT, LOOP_WIDTH = 0.1, 2.5, 3.2
 OPEN = "#E4E4E4"  # a point without pressure
 CYCLE, PATH = "#F5B183", "black"
@@ -37,21 +37,16 @@ FIXED = ("white", "black", *(STATE[state][key] for state in ("stick", "slip")
 def draw_path(path: LoadPath) -> Figure:
     """Maps of state, pressure and friction, places to the right and steps upwards; the loop below."""
     top = TOP + HEIGHT + BOTTOM + BAR
-    words = [f"Contact face{which(path)} over the load steps: where its points are open, stick or slip, "
-             "pressure, and friction (on the body, positive to the right)." + part_of(path) +
-             f" Below left: force Q of the body {way_of(path)} over {whose(path)}, with numbers of steps: "
-             "the first, the last, and where the motion turns. Below right: energy that friction "
-             "dissipates, Σ\u00a0−F_t\u00a0Δr_t over all contact points. Forces and energies are per mm of "
-             "thickness.", *words_of_cycle(path)]
-    figure = sheet(top + LOOP_TOP + LOOP_HEIGHT + BOTTOM, title_of(path), *words)
+    figure = Figure(figsize=(PAGE_WIDTH, top + LOOP_TOP + LOOP_HEIGHT + BOTTOM))
     width = (PAGE_WIDTH - LEFT - 0.15 - 2 * GAP) / 3
     pressure, friction = path.traction[..., 0], path.traction[..., 1]
-    largest = np.abs(friction).max() or 1
+    high, largest = (usual(np.abs(values)) for values in (pressure, friction))
+    clipped = ["; ends: or beyond" * bool(np.abs(values).max() > end) for values, end in ((pressure, high), (friction, largest))]
     maps = ((np.select([path.state == name for name in STATES], range(3)),
              ListedColormap([OPEN, STATE["stick"]["color"], STATE["slip"]["color"]]),
              Normalize(-0.5, 2.5), ""),
-            (pressure, COLORMAP, Normalize(0, pressure.max() or 1), "pressure, MPa"),
-            (friction, "PuOr", TwoSlopeNorm(0, -largest, largest), "friction, MPa"))
+            (pressure, COLORMAP, Normalize(0, high, clip=True), "pressure, MPa" + clipped[0]),
+            (friction, "PuOr", TwoSlopeNorm(0, -largest, largest), "friction, MPa" + clipped[1]))
     for k, (values, colours, norm, label) in enumerate(maps):
         axes = axes_at(figure, LEFT + k * (width + GAP), TOP, width, HEIGHT)
         drawn = axes.pcolormesh(*corners_of(path), values, cmap=colours, norm=norm, rasterized=True)
@@ -73,6 +68,23 @@ def draw_path(path: LoadPath) -> Figure:
     draw_dissipation(panel_at(figure, LEFT + LOOP_WIDTH + 0.85, top + LOOP_TOP,
                               PAGE_WIDTH - LEFT - LOOP_WIDTH - 1.5, LOOP_HEIGHT), path)
     return figure
+
+
+def usual(values: np.ndarray) -> float:
+    """The end of a scale: the largest value, or less where few values, as at a singular corner, are far larger."""
+    there = values[values > 0]
+    return highest_but(there, np.ones(len(there)), 0.98, 1.2) if len(there) else 1.0
+
+
+def caption(path: LoadPath) -> str:
+    return caption_of(
+        title_of(path),
+        f"Contact face{which(path)} over the load steps: where its points are open, stick or slip, "
+        f"pressure, and friction (on the body, positive to the right).{part_of(path)} "
+        f"Below left: force Q of the body {way_of(path)} over {whose(path)}, with numbers of steps: "
+        "the first, the last, and where the motion turns. Below right: energy that friction "
+        "dissipates, Σ\u00a0−F_t\u00a0Δr_t over all contact points. Forces and energies are per mm of "
+        "thickness.", *words_of_cycle(path))
 
 
 def words_of_cycle(path: LoadPath) -> Iterator[str]:

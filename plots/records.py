@@ -117,12 +117,14 @@ SHARE = number("a number from 0 to 1", lambda x: 0 <= x <= 1)
 TIMES = Kind("a list of numbers above 0", lambda value: isinstance(value, list) and all(
     is_number(time) and time > 0 for time in value), empty=None)
 SPLIT = Kind(f"peak_bytes and counted_bytes of {', '.join(OWNERS)}", is_split, empty=None)
+HISTORIES = Kind("an object of lists of numbers or null", lambda value: isinstance(value, dict) and all(
+    isinstance(own, list) and all(x is None or is_real(x) for x in own) for own in value.values()), empty=None)
 WORDS = Kind("an object of texts", lambda value: isinstance(value, dict) and all(
     map(is_text, value.values())), empty=None)
 # Of bench/records/record.hpp; figures ask no field of another kind.
 KINDS = {"name": NAME, "text": TEXT, "flag": FLAG, "count": COUNT, "size": SIZE, "number": FINITE,
          "amount": NOT_NEGATIVE, "positive": POSITIVE, "fraction": SHARE, "times": TIMES,
-         "by_owner": SPLIT, "words_by_word": WORDS}
+         "by_owner": SPLIT, "words_by_word": WORDS, "numbers_by_word": HISTORIES}
 
 # In every row that figures show.
 FILLED = ("mesh", "scene", "method", "general_name", "family", "iterative", "in_paper",

@@ -1,7 +1,6 @@
 """Which cases belong in a figure, by the columns of their records."""
 import re
 from collections.abc import Callable, Hashable, Iterable
-from operator import attrgetter
 from typing import TypeVar
 
 import numpy as np
@@ -9,6 +8,7 @@ import numpy as np
 from records import STOPS, Row
 
 Item, Key = TypeVar("Item"), TypeVar("Key", bound=Hashable)
+LEVEL_OF_DEGREE = re.compile(r"\+adapt\d+k(\d+)")  # of stresses
 GIVEN = re.compile(r"\br=([^,:]+),rho=([^,:]+)")  # parameters of an augmented Lagrangian method
 
 
@@ -54,6 +54,12 @@ def kind_of(row: Row) -> str:
         "refined everywhere" if "+refine" in row.mesh else "as they are"
 
 
+def adapting(row: Row) -> str:
+    """The method that solved the levels of an adapted mesh."""
+    degree = LEVEL_OF_DEGREE.search(row.mesh)
+    return (row.context or {}).get("adapt_by") or (f"HYBRID:k={degree[1]}" if degree else "HYBRID")
+
+
 def scene_of(rows: list[Row]) -> str:
     """The scene of figures that show only one."""
     scenes = sorted({row.scene for row in rows})
@@ -74,8 +80,8 @@ def of_mesh(rows: list[Row]) -> list[Row]:
 
 
 def tier(row: Row) -> int:
-    """0: in the paper, 1: a method with its own name, 2: a variant, 3: a preconditioner."""
-    return 0 if row.in_paper else 1 if ":" not in row.method else 3 if row.preconditioner else 2
+    """0: in the paper, 1: a method with its own name, or another program, 2: a variant, 3: a preconditioner."""
+    return 0 if row.in_paper else 1 if ":" not in row.method or row.method == row.family else 3 if row.preconditioner else 2
 
 
 def compared(rows: list[Row], room: int) -> list[Row]:
@@ -113,11 +119,11 @@ def is_paper_stop(row: Row) -> bool:
     return row.iterative and row.stop == "paper"
 
 
-def front(rows: list[Row], cost: str, error: str, gain: float = 0) -> list[Row]:
-    """The Pareto front, the cheapest first; a point must improve the error by more than `gain`, relative."""
+def front(rows: list[Row], cost: Callable[[Row], float], error: Callable[[Row], float]) -> list[Row]:
+    """The Pareto front, the cheapest first."""
     found: list[Row] = []
-    for row in sorted((row for row in rows if getattr(row, cost)), key=attrgetter(cost, error)):
-        if not found or getattr(row, error) < (1 - gain) * getattr(found[-1], error):
+    for row in sorted(rows, key=lambda row: (cost(row), error(row))):
+        if not found or error(row) < error(found[-1]):
             found.append(row)
     return found
 
@@ -137,7 +143,7 @@ def sharing_axes(rows: list[Row]) -> list[list[Row]]:
     return shared
 
 
-def order(row: Row) -> tuple[int, str]:
+def order(row: Row) -> tuple[float, str]:
     return row.look.rank, row.method
 
 
@@ -147,9 +153,9 @@ def by_method(rows: list[Row], x: str) -> dict[str, list[Row]]:
 
 
 def value_of(row: Row, key: str) -> float | None:
-    """As figures show it: peak_heap_bytes in MiB."""
+    """As figures show it: memory in MiB."""
     value = getattr(row, key)
-    return value / 2**20 if value and key == "peak_heap_bytes" else value
+    return value / 2**20 if value and key in ("peak_heap_bytes", "peak_rss_bytes") else value
 
 
 def line_of(rows: list[Row], x: str, y: str) -> tuple[list[float], list[float]]:

@@ -69,13 +69,6 @@ def seconds(value: float) -> str:
         if value < 99.5 else f"{value:.0f}\u00a0s"
 
 
-def mebibytes(value: float | None) -> str:
-    if value is None:
-        return "–"
-    mib = value / 2**20
-    return f"{mib:.2g}\u00a0MiB" if mib < 99.5 else f"{mib:.0f}\u00a0MiB"
-
-
 def counted(count: int, noun: str, nouns: str = "") -> str:
     return f"{count} {noun if count == 1 else nouns or f'{noun}s'}"
 
@@ -99,20 +92,6 @@ def plain(text: str) -> str:
 def width_of(words: str, size_pt: float, weight: str = "normal") -> float:
     font = FontProperties(size=size_pt, weight=weight)
     return TextToPath().get_text_width_height_descent(words.replace("$", ""), font, False)[0]
-
-
-def wrapped(texts: Iterable[str], width: float, size_pt: float) -> list[str]:
-    """Lines of at most so many inches; no-break spaces stay."""
-    lines: list[str] = []
-    for text in filter(None, texts):
-        lines.append("")
-        for word in text.split(" "):
-            longer = f"{lines[-1]} {word}".strip()
-            if width_of(longer, size_pt) > 72 * width and lines[-1]:
-                lines.append(word)
-            else:
-                lines[-1] = longer
-    return lines
 
 
 def merged(cases: list[str]) -> str:
@@ -198,7 +177,3 @@ def time_caption(rows: list[Row], run: list[Row]) -> str:
     if any(row.tuning_s for row in rows):
         words += " The time does not include the search for tolerances and parameters."
     return words
-
-
-def heap_caption(rows: list[Row], run: list[Row]) -> str:
-    return caption(rows, "Highest heap during one solve, its blocks and result included", run)

@@ -18,17 +18,14 @@ from statistics import median
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from drawing import Drawing, sheet, side_by_side
-from figure.profile import CONFIDENCE, SEED, medians_again
-from labels import Labels
+from drawing import Drawing, Sheet, keys
+from figure.profiles import CONFIDENCE, SEED, medians_again
 from records import Row
 from selection import by_mesh, by_stop, grouped, of_scene, order, with_suffix
-from words import columns_of, csv_of, left_out
+from words import columns_of, csv_of, left_out, plain
 
-LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.5, 0.55, 0.45, 3.2, 0.45  # inches
 MESHES = 2  # of strong scaling that there is room for, the largest
 OF_ROW = ("mesh", "n_phi", "body", "scene", "method", "stop", "status", "threads", "repetitions",
           "time_s")
@@ -109,14 +106,14 @@ def mesh_for(threads: int, alone: list[Row]) -> str | None:
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.points == "threads"])
     for stop, own in by_stop(study).items():
-        yield Drawing(with_suffix("scaling", stop), own, draw, table_of, vector=True)
+        yield Drawing(with_suffix("scaling", stop), own, draw, table_of)
 
 
 def table_of(rows: list[Row]) -> str:
     return csv_of(points_of(rows), *columns_of(lambda point: point.row, *OF_ROW), *OF_POINT)
 
 
-def draw(rows: list[Row]) -> Figure | str:
+def draw(rows: list[Row], width: float) -> Sheet | str:
     points = [point for point in points_of(rows) if point.speed_up]
     if len({point.row.threads for point in points}) < 2:
         return ("no method is solved, and timed more than once, on one thread and on more: one "
@@ -130,14 +127,13 @@ def draw(rows: list[Row]) -> Figure | str:
         panels.append(("growing meshes: efficiency",
                        [point for point in weak if point.row.body == grown[0].row.body],
                        lambda point: point.weak_efficiency, lambda threads: 1.0))
-    figure = sheet(TOP + HEIGHT + BOTTOM, "Scaling over threads",
-                   *caption(points, len(rows) - len(points), len(rows), grown),
-                   left_out(rows, [point.row for _, own, *_ in panels for point in own], why_not))
-    row = side_by_side(figure, [title for title, *_ in panels], LEFT, TOP, HEIGHT, GAP, right=0.15)
-    for axes, (_, *panel) in zip(row, panels):
-        axes.tick_params(labelleft=True)
+    sheet = Sheet(width, "Scaling over threads", *caption(points, len(rows) - len(points), len(rows), grown),
+                  left_out(rows, [point.row for _, own, *_ in panels for point in own], why_not),
+                  panels=len(panels), in_row=3, height=3.0, key=keys(point.row for _, own, *_ in panels for point in own))
+    for axes, (title, *panel) in zip(sheet.panels, panels):
+        axes.set_title(plain(title))
         draw_panel(axes, *panel)
-    return figure
+    return sheet
 
 
 def why_not(row: Row) -> str:
@@ -176,15 +172,10 @@ def draw_panel(axes: Axes, points: list[Point], value: Callable[[Point], float |
     axes.set_xticks(threads, [str(count) for count in threads])
     axes.xaxis.set_minor_locator(NullLocator())
     axes.plot(threads, [ideal(count) for count in threads], "--", color="0.5", linewidth=0.8)
-    labels = Labels(axes)
-    for method, own in grouped(sorted(points, key=lambda point: order(point.row)),
-                               lambda point: point.row.method).items():
+    for own in grouped(sorted(points, key=lambda point: order(point.row)), lambda point: point.row.method).values():
         look = own[0].row.look
-        labels.line(method, [point.row.threads for point in own], list(map(value, own)),
-                    look.colour, marker=look.marker, markersize=5, linewidth=1.2)
+        axes.plot([point.row.threads for point in own], list(map(value, own)), **look.line())
         for point in own:
             if strong and point.speed_up_low and point.row.threads > 1:
                 axes.plot([point.row.threads] * 2, [point.speed_up_low, point.speed_up_high],
                           color=look.colour, linewidth=2.5, alpha=0.5)
-    for method, counts, heights, _, colour in labels.lines:
-        labels.add(method, counts[:1], heights[:1], color=colour, weight="bold")

@@ -72,11 +72,13 @@ def without_minor_ticks() -> AbstractContextManager:
 
 
 def words_of(figure: Figure) -> str:
+    """Of the picture and of its caption."""
     # Asked for its ticks, an axis would make them all; those without words are not there yet.
     with mock.patch.multiple(Axis, get_major_ticks=lambda axis: axis.majorTicks,
                              get_minor_ticks=lambda axis: axis.minorTicks):
         texts = figure.findobj(lambda artist: hasattr(artist, "get_text"))
-    return " ".join(text.get_text() for text in texts).replace("\u00a0", " ")
+    words = [text.get_text() for text in texts] + [getattr(figure, "caption", "")]
+    return " ".join(" ".join(words).split())
 
 
 def paint(figure: Figure) -> tuple[list[Text], object]:

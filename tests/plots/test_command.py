@@ -21,7 +21,7 @@ class FilesTest(FolderTest):
     def setUp(self) -> None:
         super().setUp()
         self.figures.mkdir()
-        self.old = self.figures / "figure4.png"
+        self.old = self.figures / "size.png"
         self.old.write_text("earlier")
 
     def assert_as_before(self) -> None:
@@ -32,12 +32,12 @@ class FilesTest(FolderTest):
         made_up.write(self.csv, [made_up.case(mesh, "3STEPD") for mesh in ("Mesh0", "Mesh1")])
         full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         for error, why in ((full, full.strerror), (OSError("encoder error -2"), "encoder error -2")):
-            def write(figure: object, path: Path) -> None:
+            def write(figure: object, dpi: int, path: Path, **_: object) -> None:
                 path.write_text("half")
                 if path.suffix == ".png":
                     raise error
-            with mock.patch.object(sheets, "write", write):
-                status, out, err = run(figures, self.results, "--only=figure4")
+            with mock.patch.object(sheets, "write_small_png", write):
+                status, out, err = run(figures, self.results, "--only=size")
             self.assertEqual((status, out), (2, ""))
             self.assertEqual(err, f"figures.py: {self.old}: {why}; expected a folder to write to\n")
             self.assert_as_before()
@@ -94,7 +94,7 @@ class MessagesTest(FolderTest):
         long, hidden = "n" * 5000, "a\u202eb\x1bc字"
         made_up.write(self.csv, [made_up.case(mesh + name, f"EXTERNAL:{name}") for name in (long, hidden)
                                  for mesh in ("Mesh0", "Mesh1")])
-        self.assertEqual(run_command(figures, self.results, "--only=all_methods,figure4")[::2], (0, ""))
+        self.assertEqual(run_command(figures, self.results, "--only=size")[::2], (0, ""))
 
     def test_an_interruption_is_no_traceback(self) -> None:
         made_up.write(self.csv, [made_up.case("Mesh0", "3STEPD")])
@@ -163,13 +163,12 @@ class MadeTest(FolderTest):
             self.assertEqual((status, err), (0, ""))
             return out
         draw("Mesh0", "Mesh1")
-        self.assertIn("figure5.svg", self.there())
+        self.assertIn("size.png", self.there())
         self.assertNotIn("removed", draw("Mesh0", "Mesh1"))
         (self.figures / "mine.svg").touch()
-        draw("part", only="figure5")  # of all that there is one
+        draw("Mesh0", "Mesh1", only="size")
         self.assertIn("table1.md", self.there())
         out = draw("part")
-        self.assertIn("removed, of other records: all_methods.csv, all_methods.png, table1.md\n", out)
+        self.assertIn("removed, of other records: size.csv, size.png, size.txt, table1.md\n", out)
         self.assertNotIn("stays", out)
-        self.assertEqual({f"figure{k}.{kind}" for k in (4, 5) for kind in ("svg", "png", "csv")}
-                         | {"measured.md", "mine.svg"}, self.there())
+        self.assertEqual({"measured.md", "mine.svg"}, self.there())

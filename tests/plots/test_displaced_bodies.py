@@ -79,7 +79,7 @@ class DisplacedTest(unittest.TestCase):
         self.assertEqual(field_drawing.walls_of(paired, 50), [])
         for s, words in ((self.s, "A wall keeps its shape"), (paired, "may cross each other")):
             scales = field_drawing.scales_of([s])
-            self.assertIn(words, " ".join(gallery.heading([s], scales)))
+            self.assertIn(words, gallery.caption([s]))
         labels = [text.get_text() for text in gallery.compose([[paired]]).legends[0].get_texts()]
         self.assertNotIn("wall", labels)
 
@@ -100,6 +100,6 @@ class DisplacedTest(unittest.TestCase):
         for text in arrows:
             self.assertLess(text.xy[1], text.xyann[1])  # all downwards
         self.assertTrue(pulls)
-        words = drawn.words_of(figure)
+        words = drawn.words_of(figure) + gallery.caption([self.s])
         for word in ("outline, displaced", "wall", "held", "stick", "keeps its shape"):
             self.assertIn(word, words)

@@ -107,7 +107,7 @@ class GalleryTest(FolderTest):
     def test_the_four_meshes_make_one_picture(self) -> None:
         self.assertEqual((self.command[0], self.command[2]), (0, ""))
         figures = self.four / "figures"
-        self.assertEqual(names_in(figures), {"gallery.png", "gallery.svg", "gallery.csv"})
+        self.assertEqual(names_in(figures), {"gallery.png", "gallery.svg", "gallery.csv", "gallery.txt"})
         self.assert_png(figures / "gallery.png", 996)
         svg = (figures / "gallery.svg").read_text()
         self.assertTrue(svg.startswith("<?xml"))
@@ -116,7 +116,7 @@ class GalleryTest(FolderTest):
     def test_each_and_out(self) -> None:
         self.assertEqual(self.each[0], 0)
         self.assertEqual(names_in(self.out),
-                         {"gallery.svg", *(f"{name}.{kind}" for kind in ("png", "csv") for name in
+                         {"gallery.svg", *(f"{name}.{kind}" for kind in ("png", "csv", "txt") for name in
                                            ("gallery", *(f"fields_{name}" for name in NAMES)))})
 
     def test_the_same_input_gives_the_same_picture(self) -> None:
@@ -179,7 +179,7 @@ class GalleryTest(FolderTest):
                 self.assertIn(tuple(STEPS[round(255 * part)] for part in colormaps[scale](end)[:3]), colours)
         maps = [(fields.read_fields(self.results, name, {}), np.r_[0.25, 0.75], 0.01) for name in names[1:3]]
         words = drawn.words_of(gallery.draw_levels(maps, ("degree 1", "degree 3")))
-        self.assertIn("degree 3\n2 triangles, total error 1 %", words)
+        self.assertIn("degree 3 2 triangles, total error 1 %", words)
 
     def test_only_draws_what_is_asked_for_and_removes_nothing(self) -> None:
         names = ["Mesh0~adapt1--default--HYBRID", "Mesh0~adapt1k2--default--HYBRID+k=2"]
@@ -189,7 +189,7 @@ class GalleryTest(FolderTest):
         with SMALL:
             self.assertEqual(run(gallery, self.results, f"--only=error_map_{names[0]}")[::2], (0, ""))
             self.assertEqual(run(gallery, self.results, "--only=adapted_d*")[::2], (0, ""))
-        self.assertEqual(names_in(self.figures), {f"{picture}.{kind}" for kind in ("png", "csv")
+        self.assertEqual(names_in(self.figures), {f"{picture}.{kind}" for kind in ("png", "csv", "txt")
                                                   for picture in ("adapted_degrees", f"error_map_{names[0]}")})
         status, out, err = run(gallery, self.results, "--only=adapted_meshes")
         self.assertEqual((status, out, err.count("\n")), (2, "", 1))
@@ -201,7 +201,7 @@ class GalleryTest(FolderTest):
         with SMALL:
             run(gallery, self.results)
             self.assertEqual({f"{what}_{NAMES[0]}.{kind}" for what in ("fields", "error_map")
-                              for kind in ("png", "csv")}, names_in(self.figures))
+                              for kind in ("png", "csv", "txt")}, names_in(self.figures))
             (self.figures / "mine.png").touch()
             write_solution(self.fields, NAMES[1], contact=False)
             (self.results / "results.csv").write_text(
@@ -210,7 +210,7 @@ class GalleryTest(FolderTest):
         self.assertEqual(status, 0)
         self.assertIn(f"left out, fields of no recorded case: {NAMES[0]}\n", out)
         self.assertIn(f"removed, of other fields: error_map_{NAMES[0]}.csv, error_map", out)
-        self.assertEqual({"mine.png", f"fields_{NAMES[1]}.png", f"fields_{NAMES[1]}.csv"},
+        self.assertEqual({"mine.png", *(f"fields_{NAMES[1]}.{kind}" for kind in ("png", "csv", "txt"))},
                          names_in(self.figures))
 
     def test_boundaries_of_an_earlier_bench_are_read(self) -> None:

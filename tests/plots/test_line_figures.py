@@ -4,13 +4,12 @@ import unittest
 import made_up  # finds plots
 
 import drawn
-from figure import adaptive as adaptive_figure
-from figure import degrees as degrees_figure
-from figure import growth as growth_figure
+from figure import convergence as convergence_figure
+from figure import error_time as error_figure
+from figure import histories as histories_figure
 from figure import load_steps as load_steps_figure
-from figure import overview as overview_figure
-from figure import peers_penalty as penalty_figure
 from figure import scaling as scaling_figure
+from figure import size as size_figure
 from records import RecordsError
 
 
@@ -21,69 +20,95 @@ def levels(mesh: str, count: int) -> list[dict]:
             for level in range(count) for method in ("HYBRID", "3STEPD")]
 
 
-class AdaptiveTest(unittest.TestCase):
-
+class ConvergenceTest(unittest.TestCase):
     def test_a_loop_has_the_errors_of_the_method_that_solves_its_levels(self) -> None:
         others = [made_up.case(f"Mesh0+adapt{level}", "P2", n_phi=1000 * 2**level, adapt_level=level,
                                adapt_time_s=0.1 * 2**level, error_total=0.01 / 2**level)
                   for level in range(4)]
-        uniform = [made_up.case(mesh, method, error_total=error) for mesh in ("Mesh0", "Mesh1")
-                   for method, error in (("HYBRID", 0.04), ("P2", 0.004))]
-        figure = drawn.plan(made_up.read([*levels("Mesh0", 4), *others, *uniform]), "adaptive").figure()
-        self.assertIn("errors of HYBRID, which solves the levels", drawn.words_of(figure).replace("\n", " "))
-        unknowns, times = figure.axes[:2]
-        errors = [line.get_ydata().tolist() for line in unknowns.lines]
-        self.assertEqual(errors, [[0.04, 0.04], [0.1, 0.05, 0.025, 0.0125]])
-        loop, = (line for line in times.lines if line.get_linewidth() == 2)
-        self.assertEqual(loop.get_ydata().tolist(), errors[1])
+        uniform = [made_up.case(mesh, "HYBRID", error_total=error, error_discretisation=error)
+                   for mesh, error in (("Mesh0", 0.04), ("Mesh1", 0.02))]
+        drawing = drawn.plan(made_up.read([*levels("Mesh0", 4), *others, *uniform]), "convergence")
+        self.assertEqual([(name, errors) for name, _, errors in convergence_figure.lines_of(drawing.rows)],
+                         [("as they are", [0.04, 0.02]), ("adapted by HYBRID", [0.1, 0.05, 0.025, 0.0125])])
+        self.assertIn("adapted by HYBRID: -1.00", drawn.words_of(drawing.figure()))
+
+    def test_rate(self) -> None:
+        rows = made_up.read(made_up.error_study(["Mesh0", "Mesh1", "Mesh2", "Mesh3"], sweep=False))
+        line, = convergence_figure.lines_of(rows)
+        self.assertEqual([row.mesh for row in line[1]], ["Mesh0", "Mesh1", "Mesh2", "Mesh3"])
+        self.assertAlmostEqual(convergence_figure.rate(line), -0.45, 6)
 
 
 def refined(method: str, power: float, levels: range, **cells: object) -> list[dict[str, object]]:
-    return [made_up.case(f"Mesh3+refine{k}", method, n_phi=6000 * 4**k, time_s=1e-6 * (6000 * 4**k)**power,
-                         error_stress="" if k > 3 else 1e-12, error_estimate=1e-7, **cells)
+    return [made_up.case(f"Mesh3+refine{k}", method, n_phi=6000 * 4**k, time_s=1e-6 * (6000 * 4**k)**power, **cells)
             for k in levels]
 
 
-class GrowthTest(unittest.TestCase):
-    def test_exponents_are_those_of_the_large_ones(self) -> None:
-        rows = made_up.read(refined("HYBRID:CG", 1.1, range(6)) + refined("HYBRID", 1.4, range(4)))
-        lines = growth_figure.lines_of(rows)
-        time = growth_figure.PANELS[0]
-        self.assertAlmostEqual(growth_figure.power(lines["HYBRID:CG"], time), 1.1)
-        self.assertIsNone(growth_figure.power(lines["HYBRID"], time))  # one mesh above the limit
+class SizeTest(unittest.TestCase):
+    def test_exponents_are_those_of_the_large_ones_where_there_are_three(self) -> None:
+        lines = size_figure.lines_of(made_up.read(refined("HYBRID:CG", 1.1, range(3, 6)) + refined("HYBRID", 1.4, range(5))
+                                                  + refined("HYBRID:CG", 2, range(2))))
+        time = size_figure.QUANTITIES[0]
+        self.assertAlmostEqual(size_figure.power(lines["HYBRID:CG"], time), 1.1)
+        self.assertAlmostEqual(size_figure.power(lines["HYBRID"], time), 1.4)
 
     def test_another_program_has_its_memory_elsewhere(self) -> None:
         ours, other = made_up.read(
             refined("HYBRID", 1, range(1)) +
             refined("EXTERNAL:x", 1, range(1), program="x 1", peak_rss_bytes=2**30))
-        self.assertEqual(growth_figure.memory_of(ours), 2**22)
-        self.assertEqual(growth_figure.memory_of(other), 2**30)
-
-    def test_an_error_without_a_reference_is_the_methods_word(self) -> None:
-        drawing, = growth_figure.drawings(made_up.read(refined("HYBRID:CG", 1, range(5))))
-        table = drawn.table_of(drawing)
-        self.assertEqual([(row["error"], row["error_is_estimated"]) for row in table[3:]],
-                         [("1e-12", "false"), ("1e-07", "true")])
-        self.assertIn("HYBRID:CG: $n^{1.00}$", drawn.words_of(drawing.figure()))
+        self.assertEqual((size_figure.memory_of(ours), size_figure.memory_of(other)), (4, 1024))
 
 
-class OverviewTest(unittest.TestCase):
-    ADAPTED = [made_up.case(f"Mesh0+adapt{k}", "HYBRID", n_phi=800 * 2**k, error_total=0.04 / 2**k,
-                            time_s=0.01 * 2**k, adapt_time_s=0.03 * 2**k) for k in range(3)]
-    BOTH = [made_up.case("Mesh0", "ALM", stop=stop, error_total=0.04, time_s=0.02)
-            for stop in ("target", "paper")]
+class ErrorTimeTest(unittest.TestCase):
+    def lines(self, rows: list[dict]) -> dict:
+        return error_figure.lines_of(drawn.plan(made_up.read(rows), "error_time").rows, error_figure.total_error)
 
-    def test_a_curve_each(self) -> None:
-        paper_direct = made_up.case("Mesh0", "3STEPD", stop="paper", error_total=0.04)
-        drawing, = overview_figure.drawings(made_up.read(self.ADAPTED + self.BOTH + [paper_direct]))
-        curves = overview_figure.curves_of(drawing.rows)
-        self.assertEqual({curve.words for curve in curves},
-                         {"ALM, the paper’s stop", "ALM to 1e-6", "HYBRID, adapted meshes"})
-        self.assertEqual(overview_figure.loops_of(drawing.rows),
-                         [[(0.03, 0.04), (0.06, 0.02), (0.12, 0.01)]])
+    def test_an_adapted_mesh_costs_its_whole_loop(self) -> None:
+        lines = self.lines(levels("Mesh0", 3))
+        self.assertEqual([list(map(error_figure.time_of, line)) for line in lines.values()],
+                         [[0.1 + 0.02, 0.2 + 0.04, 0.4 + 0.08], [0.1, 0.2, 0.4]])  # 3STEPD did not adapt it
+
+    def test_a_line_is_the_front_of_a_parameters_values(self) -> None:
+        rows = made_up.error_study(["Mesh1"])
+        drawing = drawn.plan(made_up.read(rows), "error_time_forces")
+        lines = error_figure.lines_of(drawing.rows, error_figure.own_error)
+        for line in lines.values():
+            for row in drawing.rows:
+                if error_figure.name_of(row) == error_figure.name_of(line[0]):
+                    self.assertLessEqual(min(other.error_force for other in line if other.time_s <= max(
+                        row.time_s, line[0].time_s)), row.error_force)
         words = drawn.words_of(drawing.figure())
-        for curve in curves:
-            self.assertIn(curve.words, words)
+        self.assertIn("Stars: the paper's own stop", words)
+        self.assertIn("P2 (in displacements, which have other contact forces)", words)
+
+    def test_given_parameters_share_a_line(self) -> None:
+        rows = [made_up.point("Mesh1", f"ALM:r={r},rho={r}", 0.1 * k, 0.1**k / r, knob="uzawa iterations", knob_value=k)
+                for r in (1, 20, 300) for k in range(1, 5)]
+        self.assertEqual([key[0] for key in self.lines(rows)], ["ALM, best of given r, ρ"])
+
+    def test_values_of_a_programs_parameter_are_joined_on_each_mesh(self) -> None:
+        rows = [made_up.case(mesh, f"EXTERNAL:x:penalty={value}", time_s=0.1 * value, error_total=0.1 / value,
+                             parameters=f"penalty={value}; direct", program="x 1", family="EXTERNAL:x",
+                             in_displacements="true") for value in (10, 1) for mesh in ("Mesh0", "Mesh1")]
+        figure = drawn.plan(made_up.read(rows), "error_time").figure()
+        self.assertEqual([axes.get_title() for axes in figure.panels], ["Mesh0", "Mesh1"])
+        self.assertEqual(figure.panels[0].lines[0].get_xdata().tolist(), [0.1, 1])
+        self.assertIn("x: penalty 1, 10", drawn.words_of(figure))
+
+
+class HistoriesTest(unittest.TestCase):
+    def test_residuals_of_the_largest_mesh(self) -> None:
+        rows = made_up.read_lines([made_up.record(made_up.case(mesh, "ALM")) | {"histories": {
+            "residual": [None, 1, 0.1], "once": [1]}} for mesh in ("Mesh0", "Mesh1")])
+        drawing, = histories_figure.drawings(rows)
+        self.assertEqual([(row["mesh"], row["history"], row["residual"]) for row in drawn.table_of(drawing)],
+                         [("Mesh1", "residual", value) for value in ("", "1", "0.1")])
+        axes, = drawing.figure().panels
+        self.assertEqual(axes.get_title(), "residual")
+
+    def test_what_is_no_history_is_refused(self) -> None:
+        with self.assertRaisesRegex(RecordsError, "histories is .*, expected an object of lists of numbers"):
+            made_up.read_lines([made_up.record(made_up.case("Mesh0", "ALM")) | {"histories": {"residual": 1}}])
 
 
 # Mesh2 has 3105 unknowns, Mesh3 6287: 1.012 times the double.
@@ -138,25 +163,12 @@ class ScalingTest(unittest.TestCase):
 
 
 class NoneTest(unittest.TestCase):
-    def degrees(self, mesh: str = "Mesh0", **methods: int) -> list[dict]:
-        """Levels on which each method has its degree."""
-        return [made_up.case(f"{mesh}+adapt{level}", method, degree=degree, n_phi=800 * 2**level,
-                             adapt_time_s=0.1 * 2**level, error_total=0.3 / 2**(degree * level))
-                for method, degree in methods.items() for level in range(3)]
-
     def test_without_what_it_compares_a_figure_is_not_drawn(self) -> None:
-        turned = [case | {"study": "error", "knob": "contact sweeps", "knob_value": 1, "error_discretisation": 0.01}
-                  for case in levels("Mesh0", 3)]
-        adapted, both = OverviewTest.ADAPTED, OverviewTest.BOTH
-        penalty = [made_up.case(mesh, "EXTERNAL:x:penalty=5000", parameters="penalty=5000; direct", program="x 1",
-                                in_displacements="true", error_total=0.03) for mesh in ("Mesh0", "Mesh1")]
-        borrowed = self.degrees(HYBRID=1) + self.degrees(**{"HYBRID:k=2": 2})  # on the meshes of degree 1
         steps = [made_up.case("Mesh3", "ALM", load_steps=5, time_s=1)]
-        for module, *rows in ((adaptive_figure, levels("Mesh0", 1), [made_up.case("Mesh0", "ALM")], turned),
-                              (growth_figure, made_up.sizes_to_the_limit()),
-                              (overview_figure, adapted, both, adapted + both[:1]),
-                              (penalty_figure, penalty), (load_steps_figure, steps),
-                              (degrees_figure, self.degrees(HYBRID=1, P2=1), borrowed)):
+        alone = [made_up.case("Mesh0", "HYBRID", error_total=0.04)]
+        for module, *rows in ((convergence_figure, levels("Mesh0", 1), alone), (error_figure, alone),
+                              (size_figure, alone, levels("Mesh0", 3)), (load_steps_figure, steps),
+                              (histories_figure, alone)):
             for own in rows:
                 self.assertEqual(list(module.drawings(made_up.read(own))), [], module.__name__)
 

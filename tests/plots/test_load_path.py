@@ -26,6 +26,11 @@ MOVED_UM, FORCE_N, DISSIPATED = (0, 0, 2, 2, 0, 0), (0, -6, -6, 6, 6, -6), (0, 0
 LOADS = (1, 2, 3, 4, 5, 2)
 
 
+def said(path: load_path.LoadPath) -> str:
+    """The caption in one line."""
+    return " ".join(load_path_drawing.caption(path).split())
+
+
 def write_path(results: Path, bodies: tuple[bool, ...] = (True,) * 6) -> None:
     """A face on x = 2 that is pushed up and down: its tangent is y; contact points get F_t / 2 each."""
     folder = results / "fields"
@@ -75,7 +80,7 @@ class PairTest(FolderTest):
                 np.testing.assert_allclose(path.moved, [-0.001, -0.002] if moved == 2 else [0.001, 0.002])
                 self.assertEqual((path.obstacle, path.faces), ("other body", 1))
                 self.assertEqual(path.state.shape, (2, 4))
-                words = drawn.words_of(load_path_drawing.draw_path(path)).replace("\n", " ")
+                words = said(path)
                 self.assertIn("force Q of the body along the other body over the mean displacement of its "
                               "held boundary", words)
 
@@ -107,7 +112,7 @@ class LoadPathTest(FolderTest):
         table.write_text("\n".join(table.read_text().splitlines()[:5]) + "\n")
         path = load_path.read_path(self.results, NAME)
         self.assertIsNone(path.cycle)
-        words = drawn.words_of(load_path_drawing.draw_path(path))
+        words = said(path)
         self.assertNotIn("shaded", words)
 
     def test_a_cycle_is_that_of_the_loads(self) -> None:
@@ -138,7 +143,7 @@ class LoadPathTest(FolderTest):
         np.testing.assert_allclose(path.push, 60)
         np.testing.assert_allclose(path.moved, [0, 0.003, 0.006, 0.006, 0.003, 0])
         self.assertEqual(path.turns, [2])
-        words = drawn.words_of(load_path_drawing.draw_path(path))
+        words = said(path)
         self.assertIn("on the wall, normal to it", words.replace("\n", " "))
 
     def test_a_table_of_an_earlier_bench_has_no_loop(self) -> None:
@@ -162,7 +167,7 @@ class LoadPathTest(FolderTest):
         self.assertEqual(replace(path, has_body=path.step != 3).telling_step, 1)
         s = gallery.read_telling(self.results, NAME, {}, path)
         self.assertEqual((s.name, s.traction[0, 0, 0]), (NAME, -40))
-        words = drawn.words_of(gallery.compose([[s]]))
+        words = gallery.caption([s])
         self.assertIn("Load step 3 of 6, the most loaded one: the last one is unloaded.", words)
         loaded = replace(path, pressed=np.ones(6))
         self.assertEqual(loaded.telling_step, 5)
@@ -180,7 +185,7 @@ class LoadPathTest(FolderTest):
                          [("2.0", "0.0"), ("0.0", "2.0")])
         self.assertEqual(float(lines[3]["push_N"]), -6)
         figure = load_path_drawing.draw_path(load_path.read_path(self.results, NAME))
-        words = drawn.words_of(figure)
+        words = said(load_path.read_path(self.results, NAME))
         for part in ("6 load steps", "From step 2 to step 6", "dissipates 0.024 N", "dU = 0.024 N",
                      "Force and displacement return"):
             self.assertIn(part, words)
@@ -193,7 +198,7 @@ class LoadPathTest(FolderTest):
         points = self.results / "fields" / f"{NAME}.steps" / "0006.contact.csv"
         points.write_text(points.read_text().replace(",-3.0,", ",-2.0,"))  # the last force is 4 N, not 6 N
         table.write_text(table.read_text().replace(",0.012,", ",0.005,"))
-        words = drawn.words_of(load_path_drawing.draw_path(load_path.read_path(self.results, NAME)))
+        words = said(load_path.read_path(self.results, NAME))
         for part in ("dissipates 0.01 N", "not the shaded area", "dU = 0.024 N", "(6 and 4 N/mm)",
                      "not closed", "difference of 0.014 N", "stored in the body"):
             self.assertIn(part, words)

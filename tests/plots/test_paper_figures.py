@@ -3,16 +3,12 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
-from unittest import mock
-
 
 import made_up  # finds plots
 
-import drawing as sheets
 import drawn
 import figures
 from catalogue import SIZES
-from figure import size as size_figure
 from made_up import case, read
 from running import PROJECT, names_in, run
 from selection import exponent
@@ -30,11 +26,6 @@ def power_laws(**cells: object) -> list[dict[str, object]]:
             for mesh, size in SIZES.items() for method in POWER]
 
 
-def without_heap(rows: list[dict[str, object]]) -> list[dict[str, object]]:
-    """Figure 5 is left out."""
-    return [row | {"peak_heap_bytes": ""} for row in rows]
-
-
 def preconditioners(mesh: str = "Mesh3") -> list[dict[str, object]]:
     names = [*(f"DTIC{k}" for k in range(3, 7)), *(f"FLIC{k}" for k in range(1, 6)), "SSOR0.5",
              "SSOR1.0", "SSOR1.5", "SKY", "NONE"]
@@ -47,53 +38,44 @@ class PaperFiguresTest(drawn.FiguresTest):
         made_up.write(self.csv, rows)
 
     def test_all_figures_of_both_stops(self) -> None:
-        rows = power_laws()[:9] + [row for row in preconditioners() if "DTIC4" in row["method"]]
+        rows = power_laws()[:18] + [row for row in preconditioners() if "DTIC4" in row["method"]]
         self.write(rows + [row | {"stop": "paper"} for row in rows])
-        with drawn.without_minor_ticks(), mock.patch.object(sheets, "VECTOR_DPI", 50):
+        with drawn.without_minor_ticks():
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
-        names = {f"figure{k}{twin}.{kind}" for k in (3, 4, 5) for twin in ("", "_paper_stop")
-                 for kind in ("svg", "png", "csv")} | {"table1.md", "measured.md"}
+        names = {f"{name}{twin}.{kind}" for name in ("preconditioners", "size") for twin in ("", "_paper_stop")
+                 for kind in ("png", "csv", "txt")} | {"table1.md", "measured.md"}
         self.assertEqual(names_in(self.figures), names)
-        self.assertEqual(out.count("\n"), 11)
         self.assertEqual(out.count("that all of them have; needs 2 and 3"), 2)
-        self.assertIn("all_methods: left out: no method has two sizes\n", out)
-        for name in (name for name in names if name.endswith(("svg", "png"))):
-            start = (self.figures / name).read_bytes()[:8]
-            self.assertIn(start, (b"\x89PNG\r\n\x1a\n", b"<?xml ve"), name)
 
     def test_the_same_input_gives_the_same_files(self) -> None:
-        self.write(without_heap(power_laws()[:9]))
+        self.write(power_laws()[:18])
         for out in ("a", "b"):
-            self.assertEqual(run(figures, self.results, "--out", self.results / out)[0], 0)
-        for name in ("figure4.svg", "figure4.png", "table1.md"):
-            self.assertEqual((self.results / "a" / name).read_bytes(),
-                             (self.results / "b" / name).read_bytes(), name)
+            self.assertEqual(run(figures, self.results, "--vector", "--only=size", "--out", self.results / out)[0], 0)
+        for name in names_in(self.results / "a"):
+            self.assertEqual((self.results / "a" / name).read_bytes(), (self.results / "b" / name).read_bytes(), name)
 
-    def test_without_rows_of_a_figure_it_is_left_out_and_said(self) -> None:
-        out, words = self.draw(power_laws()[:9])
-        self.assertEqual(set(words), {"figure4", "figure5"})
-        self.assertIn("figure3: left out: no preconditioners beyond those of figures 4 and 5", out)
-        self.assertNotIn("paper_stop", out)
-        (self.figures / "figure3.svg").touch()
-        self.assertIn("an earlier figure3.svg stays", self.draw(power_laws()[:9])[0])
+    def test_a_run_of_one_case_or_one_mesh_compares_nothing(self) -> None:
+        for rows in ([case("Mesh0", "HYBRID", error_total=0.04)], power_laws()[:9]):
+            self.assertEqual(self.draw(rows)[1], {})
 
     def test_exponents_of_power_laws(self) -> None:
         words = self.draw(power_laws()[:27])[1]  # three meshes
         for power in POWER.values():
-            self.assertIn(f"$n^{{{power:.2f}}}$", words["figure4"])
-        self.assertEqual(words["figure5"].count("$n^{1.25}$"), 9)
+            self.assertIn(f"$n^{{{power:.2f}, 1.25}}$", words["size"])
 
     def test_exponents_need_three_completed_points(self) -> None:
         self.assertIsNone(exponent([10, 100], [1, 10]))
         self.assertAlmostEqual(exponent([10, 100, 1000], [1, 10, 100]), 1)
-        rows = [row for row in without_heap(power_laws()) if row["method"] == "3STEPD"]
+        rows = [row for row in power_laws() if row["method"] == "3STEPD"]
+        for row in rows:
+            row["peak_heap_bytes"] = ""
         for row in rows[2:]:
             row |= UNFINISHED | dict(status="timeout", done_fraction=0.5, extrapolated_time_s=9e9)
-        self.assertNotIn("$n^{", self.draw(rows)[1]["figure4"])
+        self.assertNotIn("$n^{", self.draw(rows)[1]["size"])
         rows[2] |= dict(status="inaccurate", time_s=1e-7 * SIZES["Mesh2"].n_phi**POWER["3STEPD"],
                         error_force=1e-3)
-        self.assertIn(f"$n^{{{POWER['3STEPD']:.2f}}}$", self.draw(rows)[1]["figure4"])
+        self.assertIn(f"$n^{{{POWER['3STEPD']:.2f}}}$", self.draw(rows)[1]["size"])
 
     def test_no_case_is_dropped_silently(self) -> None:
         rows = power_laws()[-18:]  # Mesh6, Mesh7
@@ -105,34 +87,17 @@ class PaperFiguresTest(drawn.FiguresTest):
             row |= UNFINISHED | outcome
         out, words = self.draw([*rows, case("Mesh3", "3STEPD", scene="flat"),
                                 case("Mesh3", "3STEPCG:DTIC3"), case("Mesh3", "3STEPCG3")])
-        time, heap = (words[name] for name in ("figure4", "figure5"))
-        self.assertIn("No estimate: 3STEPCG3 on Mesh7 (timeout, 0.1 % done)", time)
-        self.assertIn("No point: SDTIC6 on Mesh7 (not converged); 3STEPCG6 on Mesh7 (breakdown); "
-                      "SSKY on Mesh7 (out of memory); 3STEPD on Mesh7 (crashed); ALM on Mesh7 "
-                      "(skipped)", time)
-        self.assertNotIn("SDTIC3 on Mesh7", time)  # an open symbol
-        self.assertIn("No point: SDTIC3 on Mesh7 (timeout, 12 % done); 3STEPCG3 on Mesh7", heap)
-        self.assertIn("in no figure: 3STEPD on Mesh3 (scene flat)\n", out)
+        self.assertIn("No point: 3STEPCG3 on Mesh7 (timeout, 0.1 % done); SDTIC6 on Mesh7 (not converged); 3STEPCG6 on "
+                      "Mesh7 (breakdown); SSKY on Mesh7 (out of memory); 3STEPD on Mesh7 (crashed); ALM on Mesh7 "
+                      "(skipped)", words["size"])
+        self.assertNotIn("SDTIC3 on Mesh7", words["size"])  # an open symbol
+        self.assertIn("in no figure: 3STEPD on Mesh3 (scene flat); 3STEPCG:DTIC3 on Mesh3 (the same method as 3STEPCG3)\n", out)
 
     def test_every_case_has_its_point(self) -> None:
         rows = power_laws()
-        time, _ = size_figure.drawings(read(rows))
-        with mock.patch.object(size_figure, "draw_point") as point:
-            time.figure()
-        drawn = {(call.args[3].mesh, call.args[3].method): call.args[2]
-                 for call in point.call_args_list}
-        self.assertEqual(drawn, {(row["mesh"], row["method"]): row["time_s"] for row in rows})
-
-    def test_heap_that_was_not_counted(self) -> None:
-        rows = power_laws()
-        rows[0]["peak_heap_bytes"] = ""
-        words = self.draw(rows[:9])[1]["figure5"]
-        self.assertIn("No point: SDTIC3 on Mesh0 (heap not counted)", words)
-        for row in rows:
-            row["peak_heap_bytes"] = ""
-        out, words = self.draw(rows)
-        self.assertNotIn("figure5", words)
-        self.assertIn("figure5: left out: none of its 72 cases has a memory", out)
+        figure = drawn.plan(read(rows), "size").figure()
+        points = {tuple(point) for line in figure.panels[0].lines for point in line.get_xydata()}
+        self.assertEqual(points, {(row["n_phi"], row["time_s"]) for row in rows})
 
     def test_preconditioners_under_either_name(self) -> None:
         rows = preconditioners()
@@ -142,12 +107,11 @@ class PaperFiguresTest(drawn.FiguresTest):
         out, words = self.draw([*rows, case("Mesh1", "SYMMLQ:NONE"),
                                 case("Mesh3", "SYMMLQ:DTIC3,refine=yes"),
                                 case("Mesh3", "SYMMLQ:DTIC3")])
-        self.assertIn("figure3.svg, .png, .csv: 28 cases", out)
-        self.assertIn("Mesh3, 6287 degrees of freedom", words["figure3"])
-        self.assertIn("No estimate: 3STEPCG:NONE (timeout, 3 % done)", words["figure3"])
-        self.assertIn("Not drawn: SYMMLQ:DTIC3,refine=yes (its preconditioner with other options is).",
-                      words["figure3"])
-        self.assertNotIn("no figure", out)  # all_methods has it
+        words = words["preconditioners"]
+        self.assertIn("preconditioners.png, .csv, .txt: 28 cases", out)
+        self.assertIn("Mesh3: 6287 unknowns", words)
+        self.assertIn("No point: 3STEPCG:NONE on Mesh3 (timeout, 3 % done).", words)
+        self.assertIn("Not drawn: SYMMLQ:DTIC3,refine=yes (its preconditioner with other options is).", words)
 
     def test_table(self) -> None:
         self.draw([case("Mesh0", "3STEPD"), case("Mesh1", "3STEPD", n_f=145)])
@@ -157,37 +121,34 @@ class PaperFiguresTest(drawn.FiguresTest):
         self.assertIn("| Mesh7 | 4 | 50483 | – | 920 | – | 640 | – |", table)
         self.assertIn("*n_C of Mesh0*: 40 instead of the printed 38", table)
 
-    def test_only_what_is_asked_for_is_drawn_and_told(self) -> None:
-        self.write(power_laws()[:9])
+    def test_only_what_is_asked_for_is_drawn_under_an_earlier_name_too(self) -> None:
+        self.write(power_laws()[:18])
         self.figures.mkdir()
         (self.figures / "figure5.csv").write_text("earlier")
-        with drawn.without_minor_ticks(), mock.patch.object(sheets, "VECTOR_DPI", 50):
-            status, out, err = run(figures, self.results, "--only=figure4,t*,figure3")
+        status, out, err = run(figures, self.results, "--only=figure4,t*")
         self.assertEqual((status, err), (0, ""))
-        names = {f"figure4.{kind}" for kind in ("svg", "png", "csv")}
-        self.assertEqual(names_in(self.figures),
-                         names | {"table1.md", "measured.md", "figure5.csv"})
-        self.assertEqual((self.figures / "figure5.csv").read_text(), "earlier")
-        self.assertEqual([Path(line.split(":")[0].split(",")[0]).stem for line in out.splitlines()],
-                         ["figure3", "figure4", "table1"])
-        self.assertIn("figure3: left out: ", out)
+        names = {f"size.{kind}" for kind in ("png", "csv", "txt")}
+        self.assertEqual(names_in(self.figures), names | {"table1.md", "measured.md", "figure5.csv"})
+        self.assertEqual([Path(line.split(":")[0].split(",")[0]).stem for line in out.splitlines()], ["size", "table1"])
+        for earlier, today in (("figure4_paper_stop", "size_paper_stop"), ("work_precision_*", "error_time_forces"),
+                               ("stability_Mesh*", "outcomes_Mesh*"), ("profiles", "profiles"), ("growth2", "growth2"),
+                               ("adapted_methods,pareto", "outcomes_adapted,error_time")):
+            self.assertEqual(figures.under_today(earlier), today)
 
     def test_vector_figures_have_their_fonts(self) -> None:
         self.write(power_laws()[:27])
-        for name in ("figure4", "all_methods"):  # with an SVG anyway, and without
-            with drawn.without_minor_ticks():
-                status, out, err = run(figures, self.results, "--vector", f"--only={name}")
-            self.assertEqual((status, err), (0, ""))
-            self.assertRegex(out, rf"{name}\..*\.pdf: \d+ cases")
-            drawn.assert_fonts_inside(self, self.figures / name)
+        with drawn.without_minor_ticks():
+            status, out, err = run(figures, self.results, "--vector", "--only=size")
+        self.assertEqual((status, err), (0, ""))
+        self.assertRegex(out, r"size\..*\.pdf: \d+ cases")
+        drawn.assert_fonts_inside(self, self.figures / "size")
 
     def test_wrong_options_and_an_unusable_out(self) -> None:
         self.write([case("Mesh0", "3STEPD")])
         for option, *parts in (
                 ("--nonsense", "--nonsense"),
                 (f"--out={self.csv}", "expected a folder to write to"),
-                ("--only=figure4,figure9", "figure4", "--only: 'figure9' is no figure of these "
-                 "records (there are: ")):
+                ("--only=figure9", "--only: 'figure9' is no figure of these records (there are: ")):
             self.assert_refused(*parts, arguments=[option])
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import made_up  # finds plots
 
 import drawn
-from figure import profile as profile_figure
+from figure import profiles as profile_figure
 import records
 
 # By hand: seconds of each method on four cases; None: not solved.

@@ -12,20 +12,16 @@ from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from catalogue import DASHES
-from drawing import PAGE_WIDTH, TYPE, Drawing, log_axis, panel_at, sheet
-from labels import DASHED, LEFT, draw_names
+from drawing import Drawing, Sheet, keys, log_axis
 from records import Row
 from selection import compared, grouped, with_suffix
-from words import axis_label, counted, csv_of, left_out, threads, width_of
+from words import axis_label, counted, csv_of, left_out, threads
 
-TOP, PANEL, BETWEEN, BOTTOM = 0.45, 2.3, 0.55, 0.5  # inches
 METHODS = 2  # at least
 SETS = {"": "", "stability": "_stability", "adapted": "_adapted",
         "load-steps": "_load_steps"}  # study -> end of the file's name
-ROOM = 12  # methods
+ROOM = 10  # methods
 FEWEST = 3  # cases
 RESAMPLES, SEED, CONFIDENCE = 400, 1, 0.95
 
@@ -166,7 +162,7 @@ def table_of(rows: list[Row]) -> str:
                     enumerate(("share_solved", "share_solved_low", "share_solved_high"), 3)))
 
 
-def draw(rows: list[Row]) -> Figure | str:
+def draw(rows: list[Row], width: float) -> Sheet | str:
     cases = cases_of(rows)
     if len(cases.methods) < METHODS or len(cases.cases) < FEWEST:
         return (f"{counted(len(cases.methods), 'method')} on {counted(len(cases.cases), 'case')} that all "
@@ -174,15 +170,12 @@ def draw(rows: list[Row]) -> Figure | str:
     if not np.isfinite(cases.costs(lambda row: row.time_s)).any():
         return f"none of its {len(cases.cases)} cases is solved"
     shown = profiles_of(cases)
-    figure = sheet(TOP + len(shown) * (PANEL + BETWEEN),
-                   f"Profiles: {len(cases.methods)} methods on {len(cases.cases)} cases",
-                   *caption(cases, shown),
-                   left_out(rows, list(cases.rows.values()), partial(why, compared(rows, ROOM))))
-    names = max(width_of(method, TYPE) / 72 for method in cases.methods)
-    for k, profile in enumerate(shown):
-        draw_panel(panel_at(figure, LEFT, TOP + k * (PANEL + BETWEEN),
-                            PAGE_WIDTH - LEFT - 0.4 - DASHED - names, PANEL), profile, cases)
-    return figure
+    sheet = Sheet(width, f"Profiles: {len(cases.methods)} methods on {len(cases.cases)} cases", *caption(cases, shown),
+                  left_out(rows, list(cases.rows.values()), partial(why, compared(rows, ROOM))),
+                  panels=len(shown), in_row=3, height=2.6, key=keys(cases.rows.values()))
+    for axes, profile in zip(sheet.panels, shown):
+        draw_panel(axes, profile, cases)
+    return sheet
 
 
 def why(compared_ones: list[Row], row: Row) -> str:
@@ -196,9 +189,9 @@ def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
     scenes, meshes = (len({getattr(row, name) for row in rows}) for name in ("scene", "mesh"))
     yield (f"Cases: {counted(meshes, 'mesh', 'meshes')}, {counted(scenes, 'scene')}; "
            f"{threads(rows)}. A case is solved if its status is ok and verified; all other "
-           "outcomes, skipped included, are not. Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
+           "outcomes, skipped included, are not. First panels: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
            "solves within a factor of the best method's cost; at 1: how often it is the best. "
-           "Bottom: data profile (Moré & Wild 2009), the share solved within a time.")
+           "Last: data profile (Moré & Wild 2009), the share solved within a time.")
     yield ("A performance profile depends on the methods compared: with more than two, the order "
            "of those behind the best can change when one is left out (Gould & Scott 2016)"
            + {None: ".", True: "; here it does, at factor 2, without the leading method.",
@@ -221,22 +214,12 @@ def draw_panel(axes: Axes, profile: Profile, cases: Cases) -> None:
     axes.set(xscale="log", xlim=(low, high), ylim=(0, 1.04), xlabel=profile.axis,
              ylabel="share of cases solved")
     log_axis(axes.xaxis)
-    looks = {method: cases.rows[cases.cases[0], method].look for method in cases.methods}
-    families = grouped(cases.methods, lambda method: looks[method].colour)
-    dashes = {method: ("-", *DASHES)[k % (len(DASHES) + 1)]
-              for own in families.values() for k, method in enumerate(own)}
-    ends = {}
     for s, method in enumerate(cases.methods):
+        look = cases.rows[cases.cases[0], method].look
         at = np.r_[low, jumps(profile.resampled[..., s]), high]
         share, under, over = profile.shares(s, at)
-        axes.step(at, share, where="post", linewidth=1.4, zorder=3, linestyle=dashes[method],
-                  color=looks[method].colour)
+        axes.step(at, share, where="post", **look.line(marker=None, linewidth=1.4))
+        steps = jumps(profile.values[:, s])
+        axes.plot(steps, fractions(profile.values[:, s], steps), **look.line(linestyle="none", markersize=4))
         if len(profile.resampled) > 1:
-            axes.fill_between(at, under, over, step="post", alpha=0.15, linewidth=0,
-                              color=looks[method].colour)
-        ends[method] = high, share[-1]
-    # Of those that end alike the one that was there first is above.
-    last = dict(zip(ends, np.where(np.isfinite(profile.values), profile.values, 0).max(axis=0)))
-    ends = {method: ends[method] for method in sorted(ends, key=last.get, reverse=True)}
-    draw_names(axes, ends, {method: look.colour for method, look in looks.items()},
-               dict.fromkeys(ends), dashes)
+            axes.fill_between(at, under, over, step="post", alpha=0.12, linewidth=0, color=look.colour)

@@ -2,15 +2,13 @@
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from drawing import PAGE_WIDTH, TYPE, Drawing, panel_at, sheet
+from drawing import Drawing, Sheet
 from records import Row
 from selection import by_body, by_mesh, compared, grouped, of_scene
-from words import CASE, columns_of, csv_of, left_out, mebibytes, plain, threads, width_of
+from words import CASE, columns_of, csv_of, left_out, plain, threads
 
-LEFT, RIGHT, TOP, BOTTOM, BAR = 1.4, 1.75, 0.92, 0.45, 0.27  # inches
-BETWEEN = 0.75  # the axes of two meshes
+BAR, AXIS = 0.2, 0.55  # inches
 ROOM = 24  # bars
 MIB = 2**20
 # Okabe and Ito's colours, and what they stand for, from what every method has to what few have.
@@ -33,7 +31,7 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     split = [row for row in run if row.memory_by_owner and row.completed]
     if split:
         bars = [bar for own in by_body(split).values() for bar in chosen(own)]
-        yield Drawing("memory_by_owner", bars, draw, table_of, options=dict(run=run))
+        yield Drawing("memory_by_owner", bars, draw, table_of, dict(run=run))
 
 
 def chosen(rows: list[Row]) -> list[Row]:
@@ -60,7 +58,7 @@ def counted(row: Row) -> int:
     return sum(own.get("counted_bytes") or 0 for own in row.memory_by_owner.values())
 
 
-def draw(rows: list[Row], run: list[Row]) -> Figure | str:
+def draw(rows: list[Row], width: float, run: list[Row]) -> Sheet | str:
     if not rows:
         return "no mesh has two methods whose heap was split"
     used = [owner for owner in LOOKS if any(peak_of(row, owner) > 0 for row in rows)]
@@ -68,29 +66,23 @@ def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     sizes = [f"{mesh}, n_φ = {own[0].n_phi}" for mesh, own in meshes.items()]
     differ = [row.method + (f" on {row.mesh}" if len(meshes) > 1 else "") for row in rows
               if row.memory_counts_differ]
-    body = sum(BETWEEN + BAR * len(own) for own in meshes.values()) - BETWEEN
-    figure = sheet(
-        TOP + body + BOTTOM, "Where the memory goes",
+    sheet = Sheet(
+        width, "Where the memory goes",
         f"{'; '.join(sizes)}, scene {rows[0].scene}, {threads(rows)}. "
         "Peak heap of one solve, by owner at that moment; workspace belongs to the part that it serves. "
         "Diamond: the method's own count of its matrices and vectors, entries times size, and the blocks. "
         "What a bar has beyond it is workspace; where a bar is shorter, the solve never holds everything "
-        "at once.",
+        "at once. The numbers are in the CSV.",
         f"The count differs from the heap by more than 10 %: {', '.join(differ)}." if differ
         else "", left_out(run, rows, lambda row: "no room, or not on these meshes" if row.memory_by_owner
-                          else "heap not split by owner"))
-    left = max(LEFT, max(width_of(row.method, TYPE) for row in rows) / 72 + 0.2)
-    top = TOP
-    for mesh, own in meshes.items():
-        axes = panel_at(figure, left, top, PAGE_WIDTH - left - RIGHT, BAR * len(own))
+                          else "heap not split by owner"),
+        panels=len(meshes), in_row=1, height=AXIS + BAR * max(map(len, meshes.values())),
+        key=[(LOOKS[owner][1], dict(color=LOOKS[owner][0], linewidth=7, solid_capstyle="butt")) for owner in used]
+        + [("the method's own count", COUNT)])
+    for axes, (mesh, own) in zip(sheet.panels, meshes.items()):
         draw_bars(axes, own, used)
-        if len(meshes) > 1:
-            axes.set_title(plain(mesh), loc="left", pad=2, weight="bold")
-        top += BAR * len(own) + BETWEEN
-    figure.legend(*axes.get_legend_handles_labels(), loc="upper left", ncols=4, frameon=False,
-                  bbox_to_anchor=(left / PAGE_WIDTH - 0.01, 1 - 0.26 / figure.get_size_inches()[1]),
-                  borderpad=0, columnspacing=1.4, handlelength=1.2, labelspacing=0.3)
-    return figure
+        axes.set_title(plain(mesh), loc="left")
+    return sheet
 
 
 def draw_bars(axes: Axes, rows: list[Row], used: list[str]) -> None:
@@ -98,19 +90,14 @@ def draw_bars(axes: Axes, rows: list[Row], used: list[str]) -> None:
     places = range(len(rows))
     start = [0.0] * len(rows)
     for owner in used:
-        colour, words = LOOKS[owner]
+        colour, _ = LOOKS[owner]
         widths = [max(peak_of(row, owner), 0) / MIB for row in rows]
-        axes.barh(places, widths, left=start, height=0.72, color=colour, label=words,
-                  edgecolor="white", linewidth=0.4)
+        axes.barh(places, widths, left=start, height=0.72, color=colour, edgecolor="white", linewidth=0.4)
         start = [left + width for left, width in zip(start, widths)]
-    axes.plot(counts, places, label="the method's own count", **COUNT)
+    axes.plot(counts, places, **COUNT)
     axes.set(xlim=(0, 1.04 * max(*start, *counts)), ylim=(-0.6, len(rows) - 0.4),
              xlabel="heap at the peak of the solve, MiB")
     axes.set_yticks(places, [plain(row.method) for row in rows])
     axes.invert_yaxis()
     axes.tick_params(axis="y", length=0)
     axes.grid(False, axis="y")
-    for place, row, count in zip(places, rows, counts):
-        axes.annotate(f"{mebibytes(peak_of(row))}, counted {mebibytes(count * MIB)}",
-                      (1.01, place), va="center", xycoords=axes.get_yaxis_transform(), fontsize=7,
-                      annotation_clip=False)
