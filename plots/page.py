@@ -124,9 +124,10 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
         if nights else None
     run = cases[cases.night == len(nights) - 1] if records is None else named(records)
     run = run.assign(colour=[look.colour for look in run.look])
+    points = {key: int((run[key].notna() & run.time_s.notna()).sum()) for key in ERRORS}
     return {
         "errors": [name for name in COLUMNS if FIELDS[name]["unit"] == "1"],
-        "scatter": [key for key in ERRORS if (run[key].notna() & run.time_s.notna()).any()],
+        "scatter": sorted(filter(points.get, points), key=points.get, reverse=True),  # most cases first
         "columns": [{"key": key, "name": HEADS.get(key, head_of(key))} for key in COLUMNS
                     if run[key].map(is_there).any()],
         "rows": [{key: value for key, value in row.items() if is_there(value)}

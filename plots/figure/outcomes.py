@@ -10,7 +10,7 @@ from matplotlib.patches import Rectangle
 from drawing import PAGE_WIDTH, SMALLEST_PT, TYPE, Drawing, Sheet, file_name
 from records import OUTCOMES, Row
 from selection import by_mesh, by_stop, compared, grouped, order, with_suffix
-from words import at_stop, csv_of, percent, plain, seconds, short, threads, width_of
+from words import at_stop, csv_of, plain, seconds, short, threads, width_of
 
 ROOM = 12  # methods with a column; the others of a family share one
 ROW, CELL, WIDE, ABOVE = 0.165, 0.34, 0.66, 0.3  # inches

@@ -78,7 +78,6 @@ class DisplacedTest(unittest.TestCase):
         paired = replace(self.s, paired=np.ones(len(self.s.edges), bool))
         self.assertEqual(field_drawing.walls_of(paired, 50), [])
         for s, words in ((self.s, "A wall keeps its shape"), (paired, "may cross each other")):
-            scales = field_drawing.scales_of([s])
             self.assertIn(words, gallery.caption([s]))
         labels = [text.get_text() for text in gallery.compose([[paired]]).legends[0].get_texts()]
         self.assertNotIn("wall", labels)

@@ -1,7 +1,6 @@
 """The studies' figures of made-up records.  /usr/bin/python3 -m unittest FILE"""
 import shutil
 import struct
-import unittest
 
 import numpy as np
 
