@@ -11,6 +11,7 @@ one line says which.
 import argparse
 import base64
 import html
+import textwrap
 from dataclasses import dataclass
 from functools import partial
 from io import BytesIO
@@ -38,9 +39,9 @@ from field_drawing import (ARROW_PT, COLORMAP, LINES, MOVED, OUTLINE, ROLE, ROLL
 from fields import chains
 from page import hash_of, part as page_part
 from records import RecordsError, json_of, text_of
-from words import plain, wrapped
+from words import plain
 
-DPI = 130
+DPI, LETTERS = 130, 130  # letters in a line as wide as a page
 LEFT, RIGHT, BELOW, HIGHEST = 0.55, 0.35, 0.95, 5.6  # around the axes; their height at most
 NEAR = 2.4  # width and height of the enlarged contact
 PRESSURE = ROLE["contact"]["color"]
@@ -315,7 +316,7 @@ def draw(part: Part) -> Figure:
     room = PAGE_WIDTH - LEFT - RIGHT - (0 if near is None else NEAR + LEFT)
     wide, high = view[1] - view[0]
     height = min(room * high / wide, HIGHEST)
-    words = wrapped([part.shown["assumptions"].split(": ", 1)[-1]], PAGE_WIDTH - 2 * MARGIN, TYPE)
+    words = textwrap.wrap(part.shown["assumptions"].split(": ", 1)[-1], LETTERS)
     top = 0.36 + LINE * len(words)
     figure = Figure(figsize=(PAGE_WIDTH, top + max(height, 0 if near is None else NEAR + 0.3) + BELOW))
     text_at(figure, MARGIN, 0.08, plain("von Mises stress of " + title_of(part)), fontsize=11, weight="bold")
@@ -406,7 +407,7 @@ def make(args: argparse.Namespace) -> None:
         folder.mkdir(exist_ok=True)
         made = command.Made(folder, "part.py")
         made.replace({"part.png": partial(Path.write_bytes, data=picture.getvalue())} |
-                     (for_papers(figure, "part") if args.vector else {}))
+                     ({f"part{suffix}": write for suffix, write in for_papers(figure).items()} if args.vector else {}))
         made.remove_others()
     print(f"picture: {folder / 'part.png'}")
     if args.html:
