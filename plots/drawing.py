@@ -27,7 +27,7 @@ from words import plain, short, width_of
 # A page shows a figure about 830 pixels wide: 100 an inch of the widest, 7 points as 9.7 pixels.
 PAGE_WIDTH, SMALLEST_PT = 8.3, 7
 COLUMN_WIDTH, COLUMN_HEIGHT = 3.46, 8.0  # of a paper: 88 mm, and the key has room
-NARROWEST = 2.6  # a panel
+NARROWEST, LOWEST = 2.6, 1.9  # a panel
 TYPE, MATH = 8, 10  # points; indices and exponents are set at 0.7 MATH
 LINE, MARGIN = 0.155, 0.1  # between lines of words; of the sheet
 STYLE = {"font.size": TYPE, "axes.linewidth": 0.6, "axes.labelsize": TYPE, "axes.titlesize": TYPE,
@@ -54,7 +54,7 @@ class Sheet(Figure):
         key = list(key)
         in_row = max(1, min(panels, in_row, int(width / narrowest)))
         rows = math.ceil(panels / in_row)
-        height = min(height, COLUMN_HEIGHT / rows) if width <= COLUMN_WIDTH else height
+        height = min(height, max(COLUMN_HEIGHT / rows, LOWEST)) if width <= COLUMN_WIDTH else height
         entry = 0.5 + max((width_of(words, TYPE) for words, _ in key), default=0) / 72
         columns = max(1, min(len(key), int((width - 0.2) / entry)))
         below = LINE * 1.2 * math.ceil(len(key) / columns) + 0.12 * bool(key)
