@@ -403,7 +403,7 @@ Options parse_options(int argc, const char* const* argv, Asked asked) {
   read_timeout(texts.timeout, given("--timeout"), options.run.budgets_s, options.limits);
   if (given("--adapt")) read_adapt(texts.adapt, options.run.adapt);
   if (given("--degree")) read_degree(texts.degree, given("--method"), options.run);
-  options.output.columns = split_list(texts.columns);
+  if (!texts.columns.empty()) options.output.columns = split_list(texts.columns);
   if (!texts.shard.empty()) {
     const std::optional<Shard> part = shard_of(texts.shard);
     if (!part) refuse("--shard", texts.shard, "k/n with 1 <= k <= n");
