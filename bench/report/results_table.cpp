@@ -269,7 +269,7 @@ std::string ResultsTable::text() const {
   for (const TableColumn* column : filled_.all())
     if (is_limited_ && std::ranges::find(shown, column) == shown.end())
       more += (more.empty() ? "" : ", ") + key_of(*column);
-  if (!more.empty()) more = fmt::format("more columns: --columns={} of: {}\n", all_columns, more);
+  if (!more.empty()) more = fmt::format("not shown: {} (--columns=NAMES or all)\n", more);
   return aligned_table(table, 1) + imprecise_ + noisy_ + reasons() + more;
 }
 
