@@ -29,7 +29,7 @@ Formats  google-benchmark  Google Benchmark's JSON, for its compare.py and most 
          markdown          the table that bench prints, with a unit per column
          latex             the same as a tabular, for the package booktabs
 
-Columns  case, mesh, scene, method, n_phi, n_c, W, time, ±, contact_law, without_self-check, heap,
+Columns  all, case, mesh, scene, method, n_phi, n_c, W, time, ±, contact_law, without_self-check, heap,
          program, CPU, RSS, error_stress, error_force, natural_map, Siconos, error_total,
          penetration, between_nodes, tension, outside_friction_cone, unbalanced, adaptive_loop,
          status; case comes first unless one of the first four is chosen
