@@ -11,7 +11,11 @@
 //   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, rolls (0 or 1), the tractions given on Γ_F at
 //                     both ends t0_x_MPa, t0_y_MPa, t1_x_MPa, t1_y_MPa, and role
 //   NAME.faces.csv    face, along_mm, x_mm, y_mm, pressure_MPa, shear_MPa, gap_mm, slip_mm, state;
-//                     contact faces as the body is walked; five rows per edge
+//                     contact faces as the body is walked; five rows per edge: polynomials of
+//                     degree k along it, of gap and slip those whose moments are in
+//                     NAME.contact.csv, which a linear one would give to an order only; where
+//                     contact ends within the edge they oscillate. The state is that of the nearest
+//                     contact point
 //   NAME.answer.json  see part_answer.hpp. Of displacement methods neither is there
 //   NAME.von_mises.csv, NAME.outline.csv  see part_picture.hpp; of `bench solve`
 //   NAME.points.json  at the points asked for: at_mm, stress_MPa (xx, yy, xy), displacement_mm

@@ -12,6 +12,7 @@
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/rigid_contact.hpp"
 #include "assembly/total_displacement.hpp"
+#include "bench/measure/contact_zones.hpp"
 #include "bench/measure/stress_samples.hpp"
 #include "bench/records/csv.hpp"
 #include "bench/verify/along_contact.hpp"
@@ -53,12 +54,14 @@ class PartReader {
 
   std::optional<StressDoubt> stress_doubt(const std::optional<DisplacementField>& w) const {
     const auto judged = judged_largest_stresses(w);
+    constexpr double rounding = 1e-9;  // von Mises of a hydrostatic stress, which is 0
     StressDoubt doubt;
+    const double size_MPa = std::max(judged.first.value, std::abs(judged.second.value));
     std::array<double, 2> least = {infinity, infinity};  // that may be the largest
     for (const auto& [largest, from] :
          {std::pair(&judged.first, &least[0]), {&judged.second, &least[1]}})
       if (const double value = std::abs(largest->value);
-          largest->off_MPa && value > 0 && !is_at_circle(largest->at_mm)) {
+          largest->off_MPa && value > rounding * size_MPa && !is_at_circle(largest->at_mm)) {
         doubt.relative = std::max(doubt.relative, *largest->off_MPa / value);
         *from = value - *largest->off_MPa;
       }
@@ -71,7 +74,6 @@ class PartReader {
     return doubt;
   }
 
-  // Gap, slip and state are those of the nearest contact point.
   std::string faces_csv(const ContactPicture& contact) const {
     std::string text = "face,along_mm,x_mm,y_mm,pressure_MPa,shear_MPa,gap_mm,slip_mm,state\n";
     const int m = system_.contact.components, n = system_.contact.per_edge;
@@ -86,19 +88,21 @@ class PartReader {
         }
         const AlongEdge pressure = pressure_along(problem_, row, normal),
                         shear = -pressure_along(problem_, row, tangential);
+        const AlongEdge gap = of_moments(contact.gap_mm, first),
+                        slip = of_moments(contact.slip_mm, first);
         const double whole = length(row);
         constexpr int parts = 4;
         for (int i = 0; i <= parts; ++i) {
           const double s = static_cast<double>(i) / parts;
           const Eigen::Vector2d x = at(row, s);
           const auto p = static_cast<std::size_t>(first + std::lround(s * (n - 1)));
-          const auto value = [&](const std::vector<double>& of) {
-            return of.empty() ? std::string() : fmt::format("{}", of[p]);
+          const auto value = [&](const AlongEdge& of) {
+            return of.size() == 0 ? std::string() : fmt::format("{}", bernstein_value(of, s));
           };
           text +=
               fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(label(row)), start + s * whole,
                           x.x(), x.y(), bernstein_value(pressure, s), bernstein_value(shear, s),
-                          value(contact.gap_mm), value(contact.slip_mm), name_of(contact.state[p]));
+                          value(gap), value(slip), name_of(contact.state[p]));
         }
         start += whole;
       }
@@ -142,6 +146,53 @@ class PartReader {
       sum += CurvedSide<double>::weight(q) * side.normal(q).norm();
     return sum;
   }
+  // The polynomial of degree k whose moments (edge_moment) these are; without coefficients: none.
+  AlongEdge of_moments(const std::vector<double>& moments, int first) const {
+    if (moments.empty()) return {};
+    const int n = system_.contact.per_edge;
+    Eigen::MatrixXd of_coefficients(n, n);
+    Eigen::VectorXd given(n);
+    for (int j = 0; j < n; ++j) {
+      given(j) = moments[static_cast<std::size_t>(first + j)];
+      for (int i = 0; i < n; ++i) of_coefficients(j, i) = edge_moment(n - 1, j, n - 1, i);
+    }
+    return of_coefficients.llt().solve(given).transpose();
+  }
+
+  // mm in contact and mm that stick, per row of Mesh::boundary.
+  std::pair<std::vector<double>, std::vector<double>> zones() const {
+    const ContactPoints& contact = system_.contact;
+    const int m = contact.components;
+    std::pair<std::vector<double>, std::vector<double>> of_rows(mesh_.boundary.size(),
+                                                                mesh_.boundary.size());
+    for (const std::vector<int>& chain : boundary_chains(mesh_, BoundaryRole::contact)) {
+      std::vector<ZoneEdge> closed, stuck;
+      for (const int row : chain) {
+        closed.push_back({length(row), 0, {}});
+        stuck.push_back(closed.back());
+        const int first = first_point_[static_cast<std::size_t>(row)];
+        for (int p = first; p < first + contact.per_edge; ++p) {
+          const ContactState state = states_[static_cast<std::size_t>(p)];
+          const double normal_N = std::abs(F_C_(m * p)),
+                       tangential_N = m == 2 ? std::abs(F_C_(m * p + 1)) : 0;
+          closed.back().force_N += normal_N;
+          closed.back().is_inside.push_back(state != ContactState::open);
+          stuck.back().force_N += std::max(0., contact.friction_at(p) * normal_N - tangential_N);
+          stuck.back().is_inside.push_back(state == ContactState::stick);
+        }
+      }
+      const bool is_loop =
+          mesh_.boundary[chain.front()].vertices[0] == mesh_.boundary[chain.back()].vertices[1];
+      const auto take = [&](const std::vector<ZoneEdge>& edges, std::vector<double>& lengths) {
+        const std::vector<double> of_chain = zone_lengths_mm(edges, is_loop);
+        for (std::size_t k = 0; k < chain.size(); ++k) lengths[chain[k]] = of_chain[k];
+      };
+      take(closed, of_rows.first);
+      take(stuck, of_rows.second);
+    }
+    return of_rows;
+  }
+
   // ∫ σn.
   Eigen::Vector2d force_on(int row) const {
     const auto [t, k] = side_[static_cast<std::size_t>(row)];
@@ -156,23 +207,23 @@ class PartReader {
 
   std::vector<FaceAnswer> faces() const {
     const int m = system_.contact.components, n = system_.contact.per_edge;
+    const auto [closed_mm, stuck_mm] = zones();
     std::vector<FaceAnswer> answers;
     for (const ContactFace& face : contact_faces(problem_)) {
       FaceAnswer answer;
       answer.labels = face.labels;
       for (const int row : face.rows) {
         const int first = first_point_[static_cast<std::size_t>(row)];
-        const double whole = length(row);
         for (int p = first; p < first + n; ++p) {
           answer.normal_N += F_C_(m * p);
           if (m == 2) answer.tangential_N += F_C_(m * p + 1);
-          const ContactState state = states_[static_cast<std::size_t>(p)];
-          if (state != ContactState::open) answer.closed_mm += whole / n;
-          if (state == ContactState::slip) answer.slipping_mm += whole / n;
         }
-        answer.length_mm += whole;
+        answer.closed_mm += closed_mm[row];
+        answer.slipping_mm += closed_mm[row] - stuck_mm[row];
+        answer.length_mm += length(row);
         answer.force_N += force_on(row);
       }
+      answer.slipping_mm = std::max(0., answer.slipping_mm);
       const LargestPressure largest =
           largest_pressure(problem_, stress_, is_on_face(problem_, face), side_);
       answer.pressure_MPa = {largest.pressure_MPa, largest.at_mm};

@@ -24,12 +24,13 @@ struct ValueAt {
 };
 
 struct FaceAnswer {
-  std::vector<std::string> labels;                       // "contact:sole"; of a pair two
-  Eigen::Vector2d force_N = {0, 0};                      // on its body, of a pair on the first
-  double normal_N = 0, tangential_N = 0;                 // Σ F_n, Σ F_t
-  double length_mm = 0, closed_mm = 0, slipping_mm = 0;  // of it: in contact, of that: slipping
-  ValueAt pressure_MPa;                                  // of a pair on both
-  std::optional<FaceIntervals> within;                   // empty: not known
+  std::vector<std::string> labels;        // "contact:sole"; of a pair two
+  Eigen::Vector2d force_N = {0, 0};       // on its body, of a pair on the first
+  double normal_N = 0, tangential_N = 0;  // Σ F_n, Σ F_t
+  double length_mm = 0, closed_mm = 0,
+         slipping_mm = 0;               // of it: in contact, of that: slipping (contact_zones.hpp)
+  ValueAt pressure_MPa;                 // of a pair on both
+  std::optional<FaceIntervals> within;  // empty: not known
 };
 
 struct SupportAnswer {

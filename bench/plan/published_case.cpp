@@ -111,6 +111,12 @@ std::vector<Eigen::Vector2d> PublishedCase::points_mm() const {
   return points;
 }
 
+bool PublishedCase::asks_largest_stress() const {
+  return std::ranges::any_of(quantities, [](const PublishedQuantity& quantity) {
+    return quantity.of == "von_mises_MPa" || quantity.of == "principal_MPa";
+  });
+}
+
 PublishedCase read_published_case(const std::filesystem::path& file) {
   const Json json = json_of_file(file.string(), file_text(file));
   PublishedCase read;

@@ -40,6 +40,7 @@ struct PublishedCase {
   std::vector<PublishedQuantity> quantities;
 
   std::vector<Eigen::Vector2d> points_mm() const;  // of its quantities
+  bool asks_largest_stress() const;                // of the part, which adaptation then looks at
 };
 
 // Throws FileError, one line: file, key, value, what is allowed.

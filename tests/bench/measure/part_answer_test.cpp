@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -118,6 +119,25 @@ TEST_P(OfTooth, TheFileOfFacesHasThePressure) {
   EXPECT_NEAR(sum.x(), -face.normal_N, allowed);
   EXPECT_NEAR(sum.y(), face.tangential_N, allowed);
   EXPECT_LE(std::ranges::max(pressure), face.pressure_MPa.value * (1 + 1e-9));
+}
+
+// Against 1 and s along each edge, by Boole's rule.
+TEST_P(OfTooth, TheFileOfFacesHasTheMomentsOfGapAndSlip) {
+  const testing::Columns columns = testing::csv_columns(files_.faces_csv);
+  const ContactPicture picture = contact_picture(solved_.system, solved_.hybrid, solved_.w);
+  const int k = GetParam();
+  const auto expect_moments = [&](const char* name, const std::vector<double>& moments) {
+    constexpr std::array weights = {7., 32., 12., 32., 7.};
+    const std::vector<double> values = testing::numbers(columns, name);
+    Eigen::Vector2d of_file = Eigen::Vector2d::Zero(), of_points = of_file;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      of_file += (k + 1) * weights[i % 5] / 90 * values[i] * Eigen::Vector2d(1, i % 5 / 4.);
+    for (std::size_t p = 0; p < moments.size(); ++p)
+      of_points += moments[p] * Eigen::Vector2d(1, static_cast<double>(p % (k + 1)) / k);
+    EXPECT_LT((of_file - of_points).norm(), 1e-9 * of_points.norm()) << name;
+  };
+  expect_moments("gap_mm", picture.gap_mm);
+  expect_moments("slip_mm", picture.slip_mm);
 }
 
 INSTANTIATE_TEST_SUITE_P(Degrees, OfTooth, ::testing::Values(1, 2, 3));
