@@ -1,7 +1,8 @@
 """Displacements by CalculiX: P2 triangles, contact with rigid walls by a penalty or by mortar.
 
-    displacements.py penalty|mortar STIFFNESS THREADS INPUT OUTPUT
+    displacements.py penalty|mortar STIFFNESS THREADS INPUT OUTPUT [DECK]
 
+INPUT is also what `bench export-problem --format=npz` writes. DECK: a file that keeps CalculiX's input, in its units.
 Every contact edge at a wall has a wall element, which stands off by its gap; those of two bodies press on
 each other where they are. Penetration is resisted by
 STIFFNESS E/L, in MPa per mm, E of the stiffest body and L the longer side of all; sliding by a
@@ -181,9 +182,11 @@ def deck(problem, mortar, stiffness):
     return "\n".join(lines) + "\n", layer
 
 
-def solve(problem, mortar, stiffness, threads):
+def solve(problem, mortar, stiffness, threads, kept):
     """Displacements of nodes, none if it did not converge; what CalculiX printed."""
     text, layer = deck(problem, mortar, stiffness)
+    for file in kept:
+        Path(file).write_text(text, encoding="ascii")
     with TemporaryDirectory() as folder:
         Path(folder, "job.inp").write_text(text, encoding="ascii")
         ran = subprocess.run(["ccx", "job"], cwd=folder, capture_output=True, text=True, check=False,
@@ -205,12 +208,12 @@ def solve(problem, mortar, stiffness, threads):
 
 
 if __name__ == "__main__":
-    _, way, stiffness, threads, folder, output = sys.argv
+    _, way, stiffness, threads, folder, output, *kept = sys.argv
     problem = dict(np.load(Path(folder, "problem.npz")))
     try:
         refuse_bodies_apart(problem)
         problem, unit = in_its_units(problem)
-        u, printed = solve(problem, way == "mortar", float(stiffness) * STEEL_MPA / LENGTH_MM, threads)
+        u, printed = solve(problem, way == "mortar", float(stiffness) * STEEL_MPA / LENGTH_MM, threads, kept)
     except Refused as why:
         write_answer(output, {}, status="skipped", message=str(why), time_s=0)
         sys.exit()
