@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Draws published values and ours, after `bench validate`, and writes their table into docs/validation.md.
+"""Draws published values and ours, after `bench validate`, and writes their tables into docs/validation.md.
 
     validation.py FOLDER [--out DIR] [--page FILE]
 
-FOLDER has validation.json. published.png (default: in FOLDER/figures): each profile next to the
-published one, and how far every single value is off next to what is allowed. --page: a table of
-HYBRID's values in FILE, between <!-- published cases --> and <!-- end of table -->, and below it the
-sources.
+FOLDER has validation.json, or validation.json.gz. In DIR (default: FOLDER/figures): published.png, how far every
+value of the method that adapted the mesh is off, next to what is allowed; published_profiles.png, each profile and
+its closed form. --page: in FILE, between <!-- published cases --> and <!-- end of table -->, a table of these values,
+and their sources; between <!-- published by method --> and <!-- end of table --> one of all methods and programs.
 """
 import argparse
 import json
@@ -18,48 +18,96 @@ import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 import drawing
 from command import replace_all, run, text_writer
 from drawing import COLOURS, DPI, PAGE_WIDTH, write_small_png
 from records import RecordsError, text_of
-from words import plain
+from words import plain, seconds
 
 STYLE = drawing.STYLE | {"axes.titlesize": 8, "axes.spines.top": False, "axes.spines.right": False}
 OURS = dict(color="#0072B2", linestyle="", marker="o", markersize=3)
-PUBLISHED = dict(color="black", linewidth=0.8)
+PUBLISHED = dict(color="black", linestyle="", marker="o", markersize=6, fillstyle="none", markeredgewidth=0.6)
 LEAST = 1e-6  # deviation that is shown
-TABLE = re.compile(r"(<!-- published cases -->\n).*?(<!-- end of table -->)", re.DOTALL)
+COLUMNS = 3  # of profiles
+PROGRAM = "EXTERNAL:"
 
 
 def read(folder: Path) -> list[dict]:
-    """The values of HYBRID, a row each."""
+    """The cases, each with its quantities and the answers of methods; the first is that of the adapting one."""
     path = folder / "validation.json"
+    if not path.exists():
+        path = folder / "validation.json.gz"
     try:
-        rows = json.loads(text_of(path))
-        return [row for row in rows if row["method"].startswith("HYBRID")]
+        cases = json.loads(text_of(path))
+        for case in cases:
+            for answer in case["answers"]:
+                if len(answer["values"]) != len(case["quantities"]):
+                    raise ValueError(f"{case['case']}: {answer['method']}: not one value per quantity")
+        return cases
     except (ValueError, KeyError, TypeError) as error:
         raise RecordsError(f"{path}: {error}; expected what bench validate writes")
 
 
-def along(points: list[list[float]]) -> np.ndarray:
-    """mm from the first point."""
-    steps = np.linalg.norm(np.diff(np.array(points), axis=0), axis=1)
-    return np.concatenate([[0], np.cumsum(steps)])
+def rows_of(cases: list[dict]) -> list[dict]:
+    """The values of the method that adapted the mesh, a row each."""
+    return [{"case": case["case"], "title": case["title"], **quantity, **value}
+            for case in cases for quantity, value in zip(case["quantities"], case["answers"][0]["values"])]
+
+
+def along(points: list[list[float]]) -> tuple[np.ndarray, str]:
+    """mm, and what of: the coordinate that alone changes, or the way from the first point."""
+    x, y = np.array(points).T
+    for values, name in ((x, "x"), (y, "y")):
+        other = y if name == "x" else x
+        if np.ptp(other) < 0.01 * np.ptp(values):
+            return values, f"{name}, mm"
+    return np.concatenate([[0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))]), "from the first point, mm"
 
 
 def draw_profile(axes: Axes, row: dict) -> None:
-    s = along(row["at_mm"])
-    axes.plot(s, row["published"], **PUBLISHED)
-    axes.plot(s, row["ours"], **OURS)
-    axes.set(title=plain(row["title"]), xlabel="along the points, mm", ylabel=plain(f"{row['quantity']}, {row['unit']}"))
+    """The largest value with its interval, where there is one."""
+    s, where = along(row["at_mm"])
+    published, ours = np.array(row["published"]), np.array(row["ours"])
+    axes.fill_between(s, *(published + side * row["allowed"] * np.abs(published).max() for side in (-1, 1)),
+                      color="0.8", linewidth=0)
+    axes.plot(s, published, **PUBLISHED)
+    axes.plot(s, ours, **OURS)
+    if row["off"]:
+        peak = np.abs(ours).argmax()
+        axes.errorbar(s[peak], ours[peak], row["off"], color=OURS["color"], capsize=3, linewidth=0.8)
+    axes.set_title(plain(f"{row['case']}: {row['name']}"), pad=3, fontsize=drawing.SMALLEST_PT)
+    axes.set_ylabel(row["unit"], fontsize=drawing.SMALLEST_PT)
+    axes.set_xlabel(where, fontsize=drawing.SMALLEST_PT)
+    axes.tick_params(labelsize=drawing.SMALLEST_PT)
 
 
-def draw_deviations(axes: Axes, rows: list[dict]) -> None:
+def draw_profiles(rows: list[dict]) -> Figure:
+    profiles = [row for row in rows if len(row["published"]) > 1 and row["ours"]]
+    lines = -(-len(profiles) // COLUMNS)
+    heights = [0.25, *[1.45] * lines]
+    figure = Figure(figsize=(PAGE_WIDTH, sum(heights)), layout="constrained")
+    grid = figure.add_gridspec(lines + 1, COLUMNS, height_ratios=heights)
+    for k, row in enumerate(profiles):
+        draw_profile(figure.add_subplot(grid[1 + k // COLUMNS, k % COLUMNS]), row)
+    legend = figure.add_subplot(grid[0, :])
+    legend.axis("off")
+    legend.legend([Line2D([], [], **PUBLISHED), Line2D([], [], **OURS), Patch(color="0.8"),
+                   Line2D([], [], color=OURS["color"], marker="_", linestyle="", markersize=7)],
+                  ["closed form", "ours", "allowed", "interval of the largest pressure"], frameon=False,
+                  loc="center", ncols=4)
+    return figure
+
+
+def draw_deviations(rows: list[dict]) -> Figure:
     """A line per case: its values, and the largest deviation that is allowed to one of them."""
     cases = {name: k for k, name in enumerate(dict.fromkeys(row["case"] for row in rows))}
     allowed = {name: max(row["allowed"] for row in rows if row["case"] == name) for name in cases}
     known = [row for row in rows if row["deviation"] is not None]
+    figure = Figure(figsize=(PAGE_WIDTH, 1 + 0.145 * len(cases)), layout="constrained")
+    axes = figure.add_subplot()
     axes.hlines(cases.values(), LEAST, allowed.values(), color="0.85", linewidth=4, label="allowed")
     axes.plot([max(abs(row["deviation"]), LEAST) for row in known], [cases[row["case"]] for row in known], **OURS,
               label=f"deviation; at the left: {LEAST:g} or less")
@@ -67,17 +115,6 @@ def draw_deviations(axes: Axes, rows: list[dict]) -> None:
     axes.set(xscale="log", ylim=(len(cases) - 0.5, -0.5), xlim=(LEAST / 2, 0.2),
              xlabel="deviation, relative to the published value")
     axes.legend(frameon=False, loc="lower left", bbox_to_anchor=(0, 1), ncols=2)
-
-
-def draw(rows: list[dict]) -> Figure:
-    profiles = [row for row in rows if len(row["published"]) > 1 and row["ours"]]
-    lines = -(-len(profiles) // 3)
-    heights = [1.7] * lines + [0.6 + 0.145 * len({row["case"] for row in rows})]
-    figure = Figure(figsize=(PAGE_WIDTH, sum(heights) + 0.4), layout="constrained")
-    grid = figure.add_gridspec(lines + 1, 3, height_ratios=heights)
-    for k, row in enumerate(profiles):
-        draw_profile(figure.add_subplot(grid[k // 3, k % 3]), row)
-    draw_deviations(figure.add_subplot(grid[lines, :]), rows)
     return figure
 
 
@@ -94,38 +131,113 @@ def values(row: dict, key: str) -> str:
     return f"{len(row[key])} points" if len(row[key]) > 1 else number(row[key][0] if row[key] else None)
 
 
-def table_of(rows: list[dict]) -> str:
+def table_of_cases(cases: list[dict]) -> str:
     lines = ["| case | quantity | published | ours | off by |", "|---|---|---|---|---|"]
+    rows = rows_of(cases)
     for k, row in enumerate(rows):
         is_first = k == 0 or rows[k - 1]["case"] != row["case"]
         half_width = row["off"] or 0
-        is_wide = row["ours"] and half_width > LEAST * abs(row["ours"][0])
+        is_wide = len(row["ours"]) == 1 and half_width > LEAST * abs(row["ours"][0])
         ours = values(row, "ours") + f" ± {half_width:.2g}" * bool(is_wide)
         off = "–" if row["deviation"] is None else percent(abs(row["deviation"]))
-        lines.append(f"| {row['title'] + ' `' + row['case'] + '`' if is_first else ''} | {row['quantity']} | "
+        lines.append(f"| {row['title'] + ' `' + row['case'] + '`' if is_first else ''} | {row['name']} | "
                      f"{values(row, 'published')} {row['unit']} | {ours} | {off} |")
-    cases: dict[str, dict[str, None]] = {}  # by source
-    for row in rows:
-        cases.setdefault(row["source"], {})[f"`{row['case']}`"] = None
-    return "\n".join([*lines, "", *(f"- {', '.join(names)}: {source}" for source, names in cases.items())]) + "\n"
+    of_source: dict[str, list[str]] = {}
+    for case in cases:
+        of_source.setdefault(case["source"], []).append(f"`{case['case']}`")
+    return "\n".join([*lines, "", *(f"- {', '.join(names)}: {source}" for source, names in of_source.items())]) + "\n"
 
 
-def page_of(text: str, rows: list[dict], path: Path) -> str:
-    if not TABLE.search(text):
-        raise RecordsError(f"{path}: no table; expected <!-- published cases --> and <!-- end of table -->")
-    return TABLE.sub(lambda match: match[1] + table_of(rows) + match[2], text)
+class Reasons:
+    """Of cases that a method has no answer to: letters, and what they stand for."""
+
+    def __init__(self) -> None:
+        self.letters: dict[str, str] = {}
+
+    def letter(self, answer: dict) -> str:
+        text = f"{answer['status']}: {answer['reason']}".removeprefix("skipped: ")
+        text = re.sub(r"(?<![A-Z\d])(\d[\d.e+-]*\d|\d)", "…", text)  # sizes differ from case to case
+        count = len(self.letters)
+        return self.letters.setdefault(text, ("" if count < 26 else chr(96 + count // 26)) + chr(97 + count % 26))
+
+    def lines(self) -> list[str]:
+        return [f"- *{letter}*: {text}" for text, letter in self.letters.items()]
+
+
+def is_answered(answer: dict) -> bool:
+    return answer["time_s"] is not None
+
+
+def deviations(answer: dict) -> list[float]:
+    return [abs(value["deviation"]) for value in answer["values"] if value["deviation"] is not None]
+
+
+def agrees(answer: dict) -> bool:
+    return all(value["verdict"] == "agrees" for value in answer["values"] if value["deviation"] is not None)
+
+
+def cell(answer: dict | None, reasons: Reasons) -> str:
+    """Total error, largest deviation, time; of a value beyond what is allowed in italics. 0 %: to rounding."""
+    def rounded(x: float) -> str:
+        return percent(x) if x >= LEAST else "0\u00a0%"
+
+    if answer is None:
+        return ""
+    if not is_answered(answer):
+        return f"*{reasons.letter(answer)}*"
+    off = deviations(answer)
+    error = "–" if answer["error_total"] is None else rounded(answer["error_total"])
+    words = ", ".join([error, rounded(max(off)) if off else "–", seconds(answer["time_s"])])
+    return words if agrees(answer) else f"*{words}*"
+
+
+def table_of_methods(cases: list[dict]) -> str:
+    methods = sorted({answer["method"] for case in cases for answer in case["answers"][1:]})
+    by_case = {case["case"]: {answer["method"]: answer for answer in case["answers"]} for case in cases}
+    own = {case["case"]: case["answers"][0] for case in cases}
+    lines = ["| | solved | with values | all of these agree | time over the adapting method's, median |",
+             "|---|---|---|---|---|"]
+    for method in methods:
+        solved = {name: answers[method] for name, answers in by_case.items()
+                  if method in answers and is_answered(answers[method])}
+        known = [answer for answer in solved.values() if deviations(answer)]
+        ratio = [answer["time_s"] / own[name]["time_s"] for name, answer in solved.items() if own[name]["time_s"]]
+        lines.append(f"| {method.removeprefix(PROGRAM)} | {len(solved)} | {len(known)} | {sum(map(agrees, known))} | "
+                     f"{f'{np.median(ratio):.2g}' if ratio else '–'} |")
+    reasons = Reasons()
+    for group in ([m for m in methods if not m.startswith(PROGRAM)], [m for m in methods if m.startswith(PROGRAM)]):
+        if not group:
+            continue
+        lines += ["", "| case | adapted by | " + " | ".join(m.removeprefix(PROGRAM) for m in group) + " |",
+                  "|---|---|" + "---|" * len(group)]
+        for name, answers in by_case.items():
+            lines.append(f"| `{name}` | {own[name]['method']}: {cell(own[name], reasons)} | " +
+                         " | ".join(cell(answers.get(method), reasons) for method in group) + " |")
+    return "\n".join([*lines, "", *reasons.lines()]) + "\n"
+
+
+def page_of(text: str, cases: list[dict], path: Path) -> str:
+    for name, table in (("published cases", table_of_cases), ("published by method", table_of_methods)):
+        found = re.compile(rf"(<!-- {name} -->\n).*?(<!-- end of table -->)", re.DOTALL)
+        if not found.search(text):
+            raise RecordsError(f"{path}: no table; expected <!-- {name} --> and <!-- end of table -->")
+        text = found.sub(lambda match: match[1] + table(cases) + match[2], text)
+    return text
 
 
 def make(args: argparse.Namespace) -> None:
-    rows = read(args.results)
+    cases = read(args.results)
+    rows = rows_of(cases)
     out = args.out or args.results / "figures"
     with matplotlib.rc_context(STYLE):
         out.mkdir(exist_ok=True)
-        replace_all(out, {"published.png": partial(write_small_png, draw(rows), DPI, colours=COLOURS)})
+        replace_all(out, {name: partial(write_small_png, figure, DPI, colours=COLOURS) for name, figure in
+                          (("published.png", draw_deviations(rows)), ("published_profiles.png", draw_profiles(rows)))})
     if args.page:
-        text = page_of(text_of(args.page), rows, args.page)
+        text = page_of(text_of(args.page), cases, args.page)
         replace_all(args.page.parent, {args.page.name: text_writer(text)})
     print(out / "published.png")
+    print(out / "published_profiles.png")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

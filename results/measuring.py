@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import fnmatch
+import gzip
 import json
 import os
 import re
@@ -83,7 +84,7 @@ def clock(seconds: float) -> str:
 
 def forecast(shop: Workshop, part: Part, run: str) -> tuple[float | None, str]:
     """Seconds, and a word: where meshes or other programs are made only when it runs, nothing is known."""
-    if "--adapt" in run or "=adapted" in run:
+    if "--adapt" in run or "=adapted" in run or run.startswith("validate"):
         return None, "not known: its meshes are made on the way"
     if "--external" in run and not (shop.source / "build/peers").exists():
         return None, "not known: ./run peers builds its programs when it is measured"
@@ -118,8 +119,9 @@ def measure(shop: Workshop, part: Part, number: int, options: str) -> bool:
     shop.log(part=part.name, run=number, begins=options)
     start = time.monotonic()
     out.mkdir(parents=True, exist_ok=True)
-    more = [] if shop.thin else ["--resume"]
-    if not shop.thin and "--retry-noisy" not in options:
+    is_repeated = not shop.thin and not options.startswith("validate")
+    more = ["--resume"] if is_repeated else []
+    if is_repeated and "--retry-noisy" not in options:
         more.append("--retry-noisy")
     with open(out / "printed.txt", "a", encoding="utf-8") as printed:
         code = call(shop.bench, *options.split(), *more, f"--out={out}", cwd=shop.source,
@@ -155,6 +157,8 @@ def join(shop: Workshop, part: Part) -> None:
     shutil.rmtree(whole, ignore_errors=True)
     output_of(shop.bench, "merge", "--runs", *runs, f"--out={whole}", cwd=shop.source)
     shutil.rmtree(whole / "meshes", ignore_errors=True)
+    if any((run / "validation.json").exists() for run in runs):
+        join_published(runs, whole)
     for run in runs:
         if (run / "programs").is_dir():
             shutil.copytree(run / "programs", whole / "programs", dirs_exist_ok=True)
@@ -166,6 +170,14 @@ def join(shop: Workshop, part: Part) -> None:
         for stop, name in (("target", "claims.md"), ("paper", "claims_paper_stop.md")):
             output_of(shop.bench, "claims", part.name, f"--stop={stop}", f"--out={whole / name}",
                       cwd=whole.parent)  # it names the folder as it was given
+
+
+def join_published(runs: list[Path], whole: Path) -> None:
+    """Of bench validate: its values, a case a line; they and the records have all of results.csv."""
+    cases = [case for run in runs for case in json.loads((run / "validation.json").read_bytes())]
+    lines = ",\n".join(json.dumps(case, ensure_ascii=False, separators=(",", ":")) for case in cases)
+    (whole / "validation.json.gz").write_bytes(gzip.compress(f"[\n{lines}\n]\n".encode(), mtime=0))
+    (whole / "results.csv").unlink()
 
 
 def draw(whole: Path, part: Part) -> None:

@@ -4,7 +4,7 @@
 # Usage: tests/update_tables.sh [--widen]   after ./run test; then look at git diff tests/data
 #        tests/update_tables.sh --fields    what follows from bench/records/record_fields.def:
 #                                           tables of results/README.md, plots/record_fields.json
-#        tests/update_tables.sh --published   table and picture of published cases in docs/validation.md
+#        tests/update_tables.sh --published   tables and pictures of docs/validation.md, from results/validation
 set -euo pipefail
 cd -- "$(dirname "$(dirname "$(realpath -- "${BASH_SOURCE[0]}")")")"
 if [[ ${1:-} == --fields ]]; then
@@ -12,8 +12,7 @@ if [[ ${1:-} == --fields ]]; then
   exit
 fi
 if [[ ${1:-} == --published ]]; then
-  build/release/bench/bench validate --out=build/published || true  # the table says what differs
-  exec /usr/bin/python3 plots/validation.py build/published --page=docs/validation.md --out=docs/images
+  exec /usr/bin/python3 plots/validation.py results/validation --page=docs/validation.md --out=docs/images
 fi
 update=anew
 if [[ ${1:-} == --widen ]]; then update=widen; fi

@@ -72,6 +72,17 @@ class InstallTest(unittest.TestCase):
         self.assertEqual((self.folder / "work/results/first/records.jsonl").read_bytes(),
                          gzip.decompress((whole / "records.jsonl.gz").read_bytes()))
 
+    def test_published_values_of_several_runs_are_one_packed_list(self) -> None:
+        runs = [self.folder / name for name in ("1", "2")]
+        for run in runs:
+            run.mkdir()
+            (run / "validation.json").write_text(json.dumps([{"case": f"of {run.name}"}], indent=1), encoding="utf-8")
+        (self.results / "results.csv").touch()
+        measuring.join_published(runs, self.results)
+        self.assertEqual([file.name for file in self.results.iterdir()], ["validation.json.gz"])
+        self.assertEqual(json.loads(gzip.decompress((self.results / "validation.json.gz").read_bytes())),
+                         [{"case": "of 1"}, {"case": "of 2"}])
+
     def test_a_part_without_its_figure_is_left_as_it_is(self) -> None:
         (self.results / "first").mkdir()
         (self.results / "first/old.csv").touch()
