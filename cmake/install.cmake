@@ -41,7 +41,7 @@ install(DIRECTORY plots DESTINATION ${data}  # meshgen --show
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The library: meshes, assembly, methods, and the verifier.
-foreach(room IN ITEMS support mesh assembly solvers bench/verify)
+foreach(room IN ITEMS support mesh assembly solvers verify)
   install(DIRECTORY ${room}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airybench/${room}
           FILES_MATCHING PATTERN "*.hpp")
 endforeach()

@@ -1,4 +1,4 @@
-#include "meshgen/commands.hpp"
+#include "meshgen/meshgen_commands.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,6 @@
 #include "mesh/msh_format.hpp"
 #include "mesh/selection.hpp"
 #include "meshgen/catalogue.hpp"
-#include "meshgen/check.hpp"
 #include "meshgen/checksums.hpp"
 #include "meshgen/convert.hpp"
 #include "meshgen/deck_scene.hpp"
@@ -15,6 +14,7 @@
 #include "meshgen/in_a_child.hpp"
 #include "meshgen/last_words.hpp"
 #include "meshgen/mesh_cache.hpp"
+#include "meshgen/mesh_check.hpp"
 #include "meshgen/shown_model.hpp"
 #include "meshgen/tooth_mesh.hpp"
 #include "support/atomic_file.hpp"

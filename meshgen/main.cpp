@@ -10,8 +10,8 @@
 
 #include "mesh/model_format.hpp"
 #include "mesh/model_settings.hpp"
-#include "meshgen/commands.hpp"
 #include "meshgen/complaints.hpp"
+#include "meshgen/meshgen_commands.hpp"
 #include "support/called_as.hpp"
 #include "support/data_folder.hpp"
 #include "support/lists.hpp"

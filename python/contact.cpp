@@ -6,12 +6,12 @@
 
 #include "bench/problems/problem_files.hpp"
 #include "bench/problems/problem_parts.hpp"
-#include "bench/verify/verifier.hpp"
 #include "python/bindings.hpp"
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench::python {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "bench/check/check.hpp"
+#include "bench/check/program_check.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/commands.hpp"
 #include "bench/commands/run_parts.hpp"

@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-#include "bench/plan/contact_faces.hpp"
+#include "bench/plan/face_curves.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/problems/problem_files.hpp"

@@ -14,13 +14,13 @@
 #include "bench/external/answer.hpp"
 #include "bench/external/answered.hpp"
 #include "bench/problems/problem_files.hpp"
-#include "bench/verify/verifier.hpp"
 #include "solvers/base/dense_products.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
 #include "support/temporary_folder.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench {
 namespace {

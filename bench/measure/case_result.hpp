@@ -19,8 +19,8 @@
 #include "bench/measure/solve_watch.hpp"
 #include "bench/plan/plan.hpp"
 #include "bench/records/record.hpp"
-#include "bench/verify/contact_intervals.hpp"
-#include "bench/verify/total_error.hpp"
+#include "verify/contact_intervals.hpp"
+#include "verify/total_error.hpp"
 
 namespace airybench {
 

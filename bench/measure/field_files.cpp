@@ -14,11 +14,11 @@
 #include "bench/measure/point_locator.hpp"
 #include "bench/measure/stress_samples.hpp"
 #include "bench/measure/vtu.hpp"
-#include "bench/verify/along_contact.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "mesh/boundary_sides.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "support/atomic_file.hpp"
+#include "verify/along_contact.hpp"
+#include "verify/displacement_recovery.hpp"
 
 namespace airybench {
 namespace {

@@ -39,10 +39,10 @@
 
 #include "assembly/contact_system.hpp"
 #include "assembly/displacement_field.hpp"
-#include "bench/verify/contact_intervals.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/verifier.hpp"
 #include "solvers/base/solution.hpp"
+#include "verify/contact_intervals.hpp"
+#include "verify/discretisation_error.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench {
 

@@ -8,7 +8,7 @@
 
 #include "assembly/problem/load_scale.hpp"
 #include "bench/measure/remarks.hpp"
-#include "bench/verify/geometry_error.hpp"
+#include "verify/geometry_error.hpp"
 
 namespace airybench {
 namespace {

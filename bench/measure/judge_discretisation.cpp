@@ -10,8 +10,8 @@
 #include "bench/measure/field_files.hpp"
 #include "bench/measure/judge.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
+#include "verify/displacement_recovery.hpp"
 
 namespace airybench {
 

@@ -8,9 +8,9 @@
 
 #include "assembly/displacement_field.hpp"
 #include "bench/records/step_result.hpp"
-#include "bench/verify/reference.hpp"
-#include "bench/verify/verifier.hpp"
 #include "solvers/loading/load_steps.hpp"
+#include "verify/reference.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench {
 

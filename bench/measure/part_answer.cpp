@@ -15,8 +15,8 @@
 #include "bench/measure/contact_zones.hpp"
 #include "bench/measure/stress_samples.hpp"
 #include "bench/records/csv.hpp"
-#include "bench/verify/along_contact.hpp"
 #include "mesh/boundary_sides.hpp"
+#include "verify/along_contact.hpp"
 
 namespace airybench {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "bench/measure/part_answer.hpp"
 #include "bench/measure/stress_samples.hpp"
-#include "bench/verify/along_contact.hpp"
 #include "mesh/boundary_sides.hpp"
+#include "verify/along_contact.hpp"
 
 namespace airybench {
 namespace {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bench/records/step_result.hpp"
-#include "bench/verify/total_error.hpp"
-#include "bench/verify/verifier.hpp"
 #include "solvers/base/method.hpp"
+#include "verify/total_error.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "bench/verify/verifier.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench {
 namespace {

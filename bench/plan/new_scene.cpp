@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "assembly/problem/scene.hpp"
-#include "bench/plan/contact_faces.hpp"
+#include "bench/plan/face_curves.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/json.hpp"

@@ -10,10 +10,10 @@
 #include "bench/problems/problem_arrays.hpp"
 #include "bench/problems/siconos_text.hpp"
 #include "bench/records/json.hpp"
-#include "bench/verify/reference.hpp"
 #include "solvers/contact/paired_points.hpp"
 #include "support/errors.hpp"
 #include "support/shortened.hpp"
+#include "verify/reference.hpp"
 #ifdef AIRYBENCH_HAS_LIBZIP
 #include "bench/problems/numpy_files.hpp"
 #endif

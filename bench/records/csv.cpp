@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/records/numbers.hpp"
+#include "bench/records/record_numbers.hpp"
 #include "support/numbers.hpp"
 
 namespace airybench {

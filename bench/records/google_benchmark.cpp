@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bench/records/context.hpp"
-#include "bench/records/numbers.hpp"
+#include "bench/records/record_numbers.hpp"
 #include "bench/records/robust.hpp"
 #include "support/numbers.hpp"
 

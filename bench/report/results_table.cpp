@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "bench/records/numbers.hpp"
+#include "bench/records/record_numbers.hpp"
 #include "bench/records/robust.hpp"
 #include "bench/records/summary.hpp"
 #include "support/text_table.hpp"

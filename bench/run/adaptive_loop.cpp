@@ -11,12 +11,12 @@
 #include "assembly/problem/pose.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/measure/load_step_runs.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "mesh/bisection.hpp"
 #include "mesh/refinement.hpp"
 #include "mesh/transform.hpp"
 #include "support/seconds_since.hpp"
+#include "verify/discretisation_error.hpp"
+#include "verify/displacement_recovery.hpp"
 
 namespace airybench {
 namespace {

@@ -24,9 +24,9 @@
 #include "assembly/problem/scene.hpp"
 #include "bench/measure/part_answer.hpp"
 #include "bench/plan/options.hpp"
-#include "bench/verify/expected_parts.hpp"
-#include "bench/verify/total_error.hpp"
 #include "solvers/methods.hpp"
+#include "verify/expected_parts.hpp"
+#include "verify/total_error.hpp"
 
 namespace airybench {
 

@@ -13,7 +13,7 @@ namespace {
 using namespace parallel;
 using ElementVector = Eigen::Matrix<double, 12, 1>;
 
-// About √cond(M⁻¹K) of two levels (solvers/two_level/preconditioner.hpp), with a margin for an
+// About √cond(M⁻¹K) of two levels (solvers/two_level/two_levels.hpp), with a margin for an
 // inexact coarse solve.
 constexpr double preconditioned_condition = 4;
 

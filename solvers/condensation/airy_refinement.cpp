@@ -9,7 +9,7 @@
 #include "solvers/condensation/airy_residual.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/contact/free_bodies.hpp"
+#include "solvers/contact/free_body_contact.hpp"
 
 namespace airybench {
 namespace {

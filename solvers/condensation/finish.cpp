@@ -2,7 +2,7 @@
 
 #include "solvers/base/dense_products.hpp"
 #include "solvers/base/kept_body.hpp"
-#include "solvers/contact/free_bodies.hpp"
+#include "solvers/contact/free_body_contact.hpp"
 
 namespace airybench {
 namespace {

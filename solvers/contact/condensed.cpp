@@ -11,7 +11,7 @@
 #include "solvers/contact/anderson.hpp"
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/contact/free_bodies.hpp"
+#include "solvers/contact/free_body_contact.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
 #include "solvers/contact/paired_points.hpp"
 

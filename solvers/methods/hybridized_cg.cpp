@@ -9,7 +9,7 @@
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/contact_compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/contact/free_bodies.hpp"
+#include "solvers/contact/free_body_contact.hpp"
 #include "solvers/direct/factor_counts.hpp"
 #include "solvers/two_level/rows_check.hpp"
 #include "solvers/two_level/slot_rows.hpp"

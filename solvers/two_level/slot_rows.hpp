@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solvers/two_level/active_rows.hpp"
-#include "solvers/two_level/preconditioner.hpp"
+#include "solvers/two_level/two_levels.hpp"
 
 namespace airybench {
 

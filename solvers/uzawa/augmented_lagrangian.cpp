@@ -7,7 +7,7 @@
 
 #include "solvers/condensation/finish.hpp"
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/contact/free_bodies.hpp"
+#include "solvers/contact/free_body_contact.hpp"
 
 namespace airybench {
 namespace {

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "assembly/problem/pose.hpp"
-#include "bench/verify/verifier.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
+#include "verify/verifier.hpp"
 
 int main(int count, char** arguments) try {
   using namespace airybench;

@@ -6,7 +6,7 @@
 
 #include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::msh_format_test {
 namespace {

@@ -4,16 +4,16 @@
 
 #include "mesh/msh_format.hpp"
 #include "mesh/selection.hpp"
-#include "meshgen/check.hpp"
 #include "meshgen/checksums.hpp"
 #include "meshgen/gmsh_mesher.hpp"
+#include "meshgen/mesh_check.hpp"
 #include "meshgen/tooth_mesh.hpp"
 #include "support/sha256.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::catalogue_test {
 namespace {

@@ -6,7 +6,7 @@
 #include "meshgen/gmsh_mesher.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::convert_test {
 namespace {

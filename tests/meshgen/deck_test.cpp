@@ -12,7 +12,7 @@
 #include "support/errors.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::deck_test {
 namespace {

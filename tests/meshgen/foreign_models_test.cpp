@@ -14,7 +14,7 @@
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::foreign_models_test {
 namespace {

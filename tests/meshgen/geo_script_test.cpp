@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "support/errors.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::geo_script_test {
 namespace {

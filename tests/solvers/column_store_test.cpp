@@ -12,7 +12,7 @@
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::column_store_test {
 namespace {

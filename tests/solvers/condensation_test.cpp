@@ -9,7 +9,7 @@
 #include "solvers/direct/mumps.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/methods.hpp"
-#include "tests/support/condensed.hpp"
+#include "tests/support/condensed_problem.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/named_scenes.hpp"
 #include "tests/support/posed.hpp"

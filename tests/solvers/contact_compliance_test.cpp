@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/condensed.hpp"
+#include "tests/support/condensed_problem.hpp"
 #include "tests/support/named_scenes.hpp"
 #include "tests/support/posed.hpp"
 

@@ -8,7 +8,7 @@
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
-#include "tests/support/condensed.hpp"
+#include "tests/support/condensed_problem.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"

@@ -12,7 +12,7 @@
 #include "bench/records/json.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::testing {
 

@@ -5,11 +5,11 @@
 
 #include <string>
 
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
+#include "verify/discretisation_error.hpp"
+#include "verify/displacement_recovery.hpp"
 
 namespace airybench::testing {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "assembly/control_points.hpp"
-#include "bench/verify/verifier.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/pieces.hpp"
 #include "tests/support/solved_scene.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench::bonded_faces_test {
 namespace {

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "assembly/problem/pose.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/complaint.hpp"
@@ -11,6 +9,8 @@
 #include "tests/support/method_names.hpp"
 #include "tests/support/pieces.hpp"
 #include "tests/support/posed.hpp"
+#include "verify/discretisation_error.hpp"
+#include "verify/displacement_recovery.hpp"
 
 namespace airybench::changed_supports_test {
 namespace {

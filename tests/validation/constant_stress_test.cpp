@@ -13,11 +13,11 @@
 #include "assembly/control_points.hpp"
 #include "assembly/problem/scene.hpp"
 #include "bench/plan/stages.hpp"
-#include "bench/verify/verifier.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench::constant_stress_test {
 namespace {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/verify/contact_intervals.hpp"
 #include "mesh/refinement.hpp"
-#include "tests/bench/verify/solved.hpp"
 #include "tests/support/pieces.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/two_blocks.hpp"
 #include "tests/validation/shrink_fit.hpp"
+#include "tests/verify/solved_body.hpp"
+#include "verify/contact_intervals.hpp"
 
 namespace airybench::face_intervals_test {
 namespace {

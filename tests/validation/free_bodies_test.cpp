@@ -6,10 +6,10 @@
 
 #include "assembly/problem/pose.hpp"
 #include "assembly/total_displacement.hpp"
-#include "bench/verify/verifier.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/pieces.hpp"
 #include "tests/support/solved_scene.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench::free_bodies_test {
 namespace {

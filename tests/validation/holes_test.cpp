@@ -8,14 +8,14 @@
 #include "assembly/elements/edge_forces.hpp"
 #include "assembly/elements/elasticity.hpp"
 #include "assembly/problem/pose.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/displacement_recovery.hpp"
-#include "bench/verify/reference.hpp"
-#include "bench/verify/verifier.hpp"
 #include "mesh/refinement.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
+#include "verify/discretisation_error.hpp"
+#include "verify/displacement_recovery.hpp"
+#include "verify/reference.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench::holes_test {
 namespace {

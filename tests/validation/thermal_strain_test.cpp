@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "assembly/total_displacement.hpp"
-#include "bench/verify/verifier.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/solved_scene.hpp"
 #include "tests/support/two_blocks.hpp"
 #include "tests/validation/shrink_fit.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench::thermal_strain_test {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "bench/verify/contact_intervals.hpp"
-#include "bench/verify/verifier.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "tests/support/pieces.hpp"
 #include "tests/support/solved_scene.hpp"
 #include "tests/support/two_blocks.hpp"
+#include "verify/contact_intervals.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench::two_bodies_test {
 namespace {

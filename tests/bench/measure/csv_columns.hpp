@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "support/lists.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::testing {
 

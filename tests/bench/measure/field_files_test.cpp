@@ -11,17 +11,17 @@
 #include "assembly/problem/pose.hpp"
 #include "bench/measure/stress_samples.hpp"
 #include "bench/measure/vtu.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "mesh/arcs.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
 #include "tests/bench/measure/csv_columns.hpp"
-#include "tests/bench/verify/round_bodies.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
+#include "tests/verify/round_bodies.hpp"
+#include "verify/displacement_recovery.hpp"
 
 namespace airybench::field_files_test {
 namespace {

@@ -13,9 +13,9 @@
 #include "bench/report/part_table.hpp"
 #include "support/lists.hpp"
 #include "tests/bench/measure/csv_columns.hpp"
-#include "tests/bench/verify/solved.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/small_meshes.hpp"
+#include "tests/verify/solved_body.hpp"
 
 namespace airybench::part_answer_test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "bench/measure/stress_samples.hpp"
 #include "solvers/methods.hpp"
-#include "tests/bench/verify/round_bodies.hpp"
+#include "tests/verify/round_bodies.hpp"
 
 namespace airybench::testing {
 namespace {

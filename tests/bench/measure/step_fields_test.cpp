@@ -13,7 +13,7 @@
 #include "tests/bench/measure/examined.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/posed.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 #include "tests/support/two_blocks.hpp"
 
 namespace airybench::step_fields_test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/plan/contact_faces.hpp"
+#include "bench/plan/face_curves.hpp"
 
 namespace airybench {
 namespace {

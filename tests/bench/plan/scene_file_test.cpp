@@ -4,7 +4,7 @@
 
 #include "tests/support/complaint.hpp"
 #include "tests/support/contains.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::scene_file_test {
 namespace {

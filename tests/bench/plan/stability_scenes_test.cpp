@@ -3,10 +3,10 @@
 
 #include "assembly/problem/pose.hpp"
 #include "bench/plan/scene_file.hpp"
-#include "bench/verify/reference.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
+#include "verify/reference.hpp"
 
 namespace airybench::stability_scenes_test {
 namespace {

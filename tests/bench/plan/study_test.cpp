@@ -19,7 +19,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::study_test {
 namespace {

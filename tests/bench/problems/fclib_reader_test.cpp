@@ -12,7 +12,6 @@
 
 #include "assembly/problem/scene.hpp"
 #include "bench/problems/problem_files.hpp"
-#include "bench/verify/verifier.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
@@ -20,6 +19,7 @@
 #include "tests/support/bench_command.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/posed.hpp"
+#include "verify/verifier.hpp"
 
 namespace airybench::fclib_reader_test {
 namespace {

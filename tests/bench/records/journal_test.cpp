@@ -5,7 +5,7 @@
 
 #include "bench/records/context.hpp"
 #include "bench/records/record_reader.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::journal_test {
 namespace {

@@ -5,7 +5,7 @@
 #include "bench/records/record_files.hpp"
 #include "bench/report/results_table.hpp"
 #include "bench/run/noise_watch.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::many_records_test {
 namespace {

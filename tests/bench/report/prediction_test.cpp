@@ -10,7 +10,7 @@
 #include "solvers/methods.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/places.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::prediction_test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "tests/support/contains.hpp"
 #include "tests/support/dice.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::track_test {
 namespace {

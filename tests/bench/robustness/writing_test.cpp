@@ -9,7 +9,7 @@
 #include "tests/support/background_run.hpp"
 #include "tests/support/complaint.hpp"
 #include "tests/support/sanitized.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::writing_test {
 namespace {

@@ -10,11 +10,11 @@
 
 #include "mesh/arcs.hpp"
 #include "mesh/quality.hpp"
-#include "tests/bench/verify/solved.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
+#include "tests/verify/solved_body.hpp"
 
 namespace airybench::adaptive_loop_test {
 namespace {

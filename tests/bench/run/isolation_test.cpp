@@ -22,7 +22,7 @@
 #include "tests/support/posed.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::isolation_test {
 namespace {

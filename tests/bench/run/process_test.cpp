@@ -16,7 +16,7 @@
 #include "support/time_limit.hpp"
 #include "tests/support/background_run.hpp"
 #include "tests/support/environment_variable.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test_folder.hpp"
 
 namespace airybench::process_test {
 namespace {

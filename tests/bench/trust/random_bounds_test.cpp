@@ -10,17 +10,17 @@
 #include <iostream>
 #include <limits>
 
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
-#include "tests/bench/verify/solved.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
+#include "tests/verify/solved_body.hpp"
+#include "verify/discretisation_error.hpp"
+#include "verify/displacement_recovery.hpp"
 
 namespace airybench::random_bounds_test {
 namespace {

@@ -6,12 +6,12 @@
 
 #include "mesh/arcs.hpp"
 #include "mesh/transform.hpp"
-#include "tests/bench/verify/solved.hpp"
-#include "tests/bench/verify/true_error.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/kolosov_fields.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
+#include "tests/verify/solved_body.hpp"
+#include "tests/verify/true_error.hpp"
 
 namespace airybench::random_round_bodies_test {
 namespace {
