@@ -297,7 +297,7 @@ struct AskedCases {
 
 AskedCases parse(int argc, const char* const* argv) {
   AskedCases asked;
-  asked.options.output.folder = "results/validation";
+  asked.options.output.folder = "results/validate";
   CLI::App app("Published values and ours: closed forms, benchmarks of others.",
                "{bench} validate");
   app.footer(validate_footer);
@@ -355,6 +355,10 @@ int validate_command(int argc, const char* const* argv) {
   check_takes_records(asked.options.output.folder);
   catch_interrupts();
   make_folder(asked.options.output.folder);
+  // Those of the run that this one replaces, which the records of the cases after the first would
+  // seem to need.
+  if (std::filesystem::exists(asked.options.output.folder / "records.jsonl"))
+    std::filesystem::remove_all(asked.options.output.folder / "meshes");
   set_threads(asked.options.run.cases.threads);
   std::vector<Judged> all;
   for (const PublishedCase& of : cases) {
