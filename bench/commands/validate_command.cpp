@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 #include "bench/commands/command_line.hpp"
@@ -22,6 +23,7 @@
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
+#include "support/lagrange.hpp"
 #include "support/lists.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
@@ -59,14 +61,8 @@ struct FaceEdge {
 
   // The polynomial through these, which the column is.
   double operator()(double s) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < per_edge; ++i) {
-      double weight = 1;
-      for (std::size_t j = 0; j < per_edge; ++j)
-        if (j != i) weight *= ((per_edge - 1) * s - double(j)) / (double(i) - double(j));
-      sum += weight * value[i];
-    }
-    return sum;
+    const LagrangeBasis<double> basis(per_edge - 1, s);
+    return std::inner_product(value.begin(), value.end(), basis.value.begin(), 0.);
   }
 };
 
