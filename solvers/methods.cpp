@@ -26,14 +26,25 @@ namespace airybench {
     return function;                     \
   }()
 
-static const std::map<std::string, Method (*)(GeneralName)>& families() {
-  static const std::map<std::string, Method (*)(GeneralName)> all = {
-      {"3STEPCG", FAMILY(three_step_cg)},
-      {"ALM", FAMILY(alm)},
-      {"HYBRID", FAMILY(hybrid_of_degree)},
-      {"SYMMLQ", FAMILY(symmlq)},
+struct Family {
+  Method (*make)(GeneralName);
+  const char* names;  // as users are told them
+};
+
+static const std::map<std::string, Family>& families() {
+  static const std::map<std::string, Family> all = {
+      {"3STEPCG", {FAMILY(three_step_cg), "3STEPCG:<preconditioner>[,refine=yes]"}},
+      {"ALM", {FAMILY(alm), "ALM:r=<r>,rho=<rho>"}},
+      {"HYBRID", {FAMILY(hybrid_of_degree), "HYBRID:k=<degree>"}},
+      {"SYMMLQ", {FAMILY(symmlq), "SYMMLQ:<preconditioner>[,refine=yes]"}},
   };
   return all;
+}
+
+std::vector<std::string> general_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, family] : families()) names.emplace_back(family.names);
+  return names;
 }
 
 bool is_general_name(const std::string& name) {
@@ -43,7 +54,7 @@ bool is_general_name(const std::string& name) {
 // SYMMLQ:SSOR1 is an alias of SYMMLQ:SSOR1.0.
 static Method method_of_general_name(const std::string& text) {
   const GeneralName name(text);
-  Method method = families().at(name.family())(name);
+  Method method = families().at(name.family()).make(name);
   std::string general = text;
   if (!method.preconditioner.empty())
     general.replace(name.family().size() + 1, name.first().size(), method.preconditioner);
@@ -149,9 +160,8 @@ std::vector<Method> select_methods(std::string_view selection, const std::vector
     if (!is_general_name(item))
       throw std::invalid_argument("no method matches '" + shortened(item) + "'" +
                                   perhaps(item, valid_names(table)) +
-                                  " (valid: " + joined(valid_names(table)) +
-                                  ", 3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, "
-                                  "ALM:r=<r>,rho=<rho>, HYBRID:k=<degree>; globs like '3STEP*')");
+                                  " (valid: " + joined(valid_names(table)) + ", " +
+                                  joined(general_names()) + "; globs like '3STEP*')");
     more.push_back(method_of_general_name(item));
   }
   std::vector<Method> result;

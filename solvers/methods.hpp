@@ -40,6 +40,7 @@ extern const int highest_degree;
 // "P2", "P3", "P4": of the displacements, whose stresses have one degree less.
 std::string displacements_of_degree(int degree);
 
+std::vector<std::string> general_names();  // "HYBRID:k=<degree>", as messages and lists have them
 // Whether a name is of a family: "SYMMLQ:…", not "3STEPD:FILE".
 bool is_general_name(const std::string& name);
 

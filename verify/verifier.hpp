@@ -90,7 +90,7 @@ struct MomentsCheck {
 };
 MomentsCheck check_moments(const ContactSystem& system, const Eigen::MatrixXd& edge_moments);
 
-// ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n = W − Π*, N mm; F_C at the contact points.
+// ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n = ½ ∫ σ:C:σ + ∫ σ:ε₀ − Π*, N mm; F_C at the contact points.
 double work_of_prescribed(const ContactSystem& system, const StressField& stress,
                           const Eigen::VectorXd& F_C);
 

@@ -30,16 +30,15 @@ void print_list(const std::vector<Method>& others) {
                same);
   }
   fmt::print(
-      "also: 3STEPCG:<preconditioner>[,refine=yes], SYMMLQ:<preconditioner>[,refine=yes],\n"
-      "      ALM:r=<r>,rho=<rho>;\n"
+      "also: {};\n"
       "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE;\n"
       "      EXTERNAL:<name> of the declarations of --external;\n"
       "      with --problem CONDENSED, the contact law alone by {}, and "
       "CONDENSED/contact=<solver>\n"
       "contact solvers (--contact, {} by default): {}\n"
       "studies (--study):\n",
-      name_of(ContactSolver::newton), name_of(ContactSolver::newton),
-      fmt::join(names_of(all_contact_solvers), ", "));
+      fmt::join(general_names(), ", "), name_of(ContactSolver::newton),
+      name_of(ContactSolver::newton), fmt::join(names_of(all_contact_solvers), ", "));
   for (const Study& study : all_studies()) fmt::print("  {:<16}  {}\n", study.name, study.about);
 }
 

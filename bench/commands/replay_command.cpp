@@ -112,7 +112,13 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   options.output.folder = std::move(out);
   asked.threads = static_cast<int>(record.threads.value_or(1));
   asked.target_error = record.target_error.value_or(asked.target_error);
-  run.study = study_named(record.study).value_or(Study());
+  if (!record.study.empty()) {
+    const std::optional<Study> study = study_named(record.study);
+    if (!study)
+      throw FileError(fmt::format("the record's study {} is not there (bench/scenes/{}.json)",
+                                  shortened(record.study), shortened(record.study)));
+    run.study = *study;
+  }
   // Each point of an accuracy study sets its stop.
   if (run.study.points != Study::Points::accuracy) asked.stop = record.stop;
   if (run.study.points == Study::Points::threads) {

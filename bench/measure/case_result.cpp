@@ -127,6 +127,7 @@ Record to_record(const Case& asked, const Limits& limits, const CaseResult& resu
     record.answer_hash = answer_hash(*result.verification);
   }
   if (result.is_other_solution) record.outcome = other_solution;
+  if (result.is_right_on_the_mesh) record.outcome = name_of(Status::inaccurate);
   write(result.of_mesh, record);
   write(result.memory, record);
   record.conclude(result.verdict);

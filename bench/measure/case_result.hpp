@@ -3,8 +3,10 @@
 //
 //   the method          Solution::status, what it claims (solvers/base/method.hpp)
 //   Judge::judge()      the last word on what the method claims
-//   Workbench           what could not be assembled, and a run that ends otherwise than the first
-//   obituary_of() …     a process that ended (bench/run/isolated_scene.cpp)
+//   Workbench           what could not be assembled, a memory run that ends otherwise than the
+//   first add_run()           a timed run that does IsolatedScene       a process that ended or was
+//   suspended, a file of fields that cannot be
+//                       written, a defect (bench/run/isolated_scene.cpp)
 //   blank_record()      a case that is skipped, or did not run
 //
 // and to_record() alone makes the record.
@@ -75,6 +77,7 @@ struct CaseResult {
   // The judge's, of an answer:
   std::optional<Verification> verification = {};  // of the last load step
   bool is_other_solution = false;                 // than the reference's
+  bool is_right_on_the_mesh = false;  // what is inaccurate is the mesh, or small displacements
   std::string polygons = {};
   DiscretisationError of_mesh = {};
   std::vector<StepResult> steps_in_halves = {};

@@ -286,16 +286,11 @@ ContactPicture contact_picture(const ContactSystem& system, const Solution& solu
   const MeshPieces pieces = pieces_of(system.problem->mesh);
   for (int p = 0; p < contact.count; ++p) {
     const int row = contact.boundary[p];
-    const BoundaryEdge& edge = system.problem->mesh.boundary[row];
-    const auto [start, end] = edge.vertices;
     const int j = p % contact.per_edge;
     const double s = static_cast<double>(j) / (contact.per_edge - 1);
-    const auto& x = system.problem->mesh.vertices;
-    picture.at_mm.push_back(system.problem->follows_curve(row, system.degree)
-                                ? edge.curve.at(s)
-                                : Eigen::Vector2d((1 - s) * x[start] + s * x[end]));
+    picture.at_mm.push_back(point_on_edge(*system.problem, row, system.degree, s));
     picture.frame.push_back(system.problem->frame_of_moment(row, system.degree, j));
-    picture.piece.push_back(pieces.of_vertex[start]);
+    picture.piece.push_back(pieces.of_vertex[system.problem->mesh.boundary[row].vertices.front()]);
   }
   if (has_own_points)
     take_forces(contact, solution, picture);

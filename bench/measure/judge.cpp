@@ -143,7 +143,10 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
   result.of_mesh.total.set_method_errors(errors_of_method(result.steps));
   const std::vector<StepResult>* const halves = half_steps(method.degree);
   if (halves != nullptr) result.steps_in_halves = *halves;
-  if (is_ok()) verdict = judge_total_error(method, std::move(verdict), result);
+  if (is_ok()) {
+    verdict = judge_total_error(method, std::move(verdict), result);
+    result.is_right_on_the_mesh = !is_ok();
+  }
   if (is_ok() && has_other_elements)
     verdict.add(
         "judged by its total error alone: its elements are not the quadratic ones of the mesh");

@@ -7,24 +7,15 @@ namespace airybench {
 
 void summarise(Record& record);
 
-// By which a contact law's normal may turn where a face slides (Sliding); beyond, small
-// displacements do not hold, whatever the method.
-inline constexpr double max_slide_turn = 0.1;
-
 // If the method claims ok and the verifier disagrees: "wrong_success", or "unverified" without an
-// error_stress. A discretisation error above 1 alone does not count. Else status, or the
-// judge's other_solution.
+// error_stress. Else status, or what the judge has written there: other_solution, or "inaccurate"
+// where mesh or scene are to blame.
 std::string outcome_of(const Record& record);
 
 // Whether the intervals of both median times overlap, so that neither is known to be faster.
 bool times_tie(const Record& a, const Record& b);
 inline constexpr int fewest_to_tell_apart =
     5;  // two samples of five differ at p < 0.01, of four never
-// A total error of 100 % and more. Where bodies miss each other on the mesh it is 1 up to rounding.
-inline bool is_all_error(const std::optional<double>& error) {
-  return error && !(*error < 1 - 1e-9);  // NaN: nothing is known
-}
-
 // Whether a total error is the one asked for or less, up to rounding; not known: it is not.
 bool meets(const std::optional<double>& error, double goal);
 // Its mesh was adapted to a total error below its own.

@@ -152,7 +152,8 @@ std::string percent(const std::optional<double>& share) {
 
 Rows steps_table(const Record& record) {
   if (record.steps.size() < 2) return {};
-  Rows rows = {{"step", "F_n N", "F_t N", "energy N mm", "dissipation N mm", "total error", ""}};
+  Rows rows = {
+      {"step", "F_n N", "F_t N", "energy N mm", "dissipation N mm", "error of the mesh", ""}};
   const auto cell = [](const std::optional<double>& value) {
     return value ? number(*value) : std::string("-");
   };

@@ -192,20 +192,19 @@ TEST(Study, OutcomesTellWhoKnewWhat) {
 }
 
 TEST(Study, AnErrorOfTheMeshIsNotTheMethods) {
-  Record record;
-  record.claimed_status = Status::ok;
-  record.status = Status::inaccurate;
-  record.target_error = 1e-6;
-  record.error_stress = 1e-9;
-  record.error_discretisation = 1.2;
-  EXPECT_EQ(outcome_of(record), "inaccurate");
-  record.steps.resize(2);
-  for (StepResult& step : record.steps) step.error = 1e-9;
-  EXPECT_EQ(outcome_of(record), "inaccurate");
-  record.steps[0].error = 1e-3;
-  EXPECT_EQ(outcome_of(record), "wrong_success");
-  record.steps[0].error = std::nan("");
-  EXPECT_EQ(outcome_of(record), "wrong_success");
+  const auto outcome_where = [](bool is_right_on_the_mesh) {
+    CaseResult result;
+    result.solution.emplace();
+    result.solution->status = Status::ok;
+    result.verification.emplace().error_stress = 1e-9;
+    result.verdict.status = Status::inaccurate;
+    result.is_right_on_the_mesh = is_right_on_the_mesh;
+    Record record = to_record({.method = {}}, Limits{}, result);
+    summarise(record);
+    return record.outcome;
+  };
+  EXPECT_EQ(outcome_where(true), "inaccurate");
+  EXPECT_EQ(outcome_where(false), "wrong_success");
 }
 
 Record point_record(const std::string& study, std::optional<double> tolerance) {
