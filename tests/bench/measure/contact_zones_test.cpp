@@ -90,7 +90,7 @@ TEST(ContactZones, ALoopHasNoEnds) {
   std::vector<ZoneEdge> edges = edges_of({0, 1, 2, 3}, integral, 1.7);
   edges.push_back({1, 2, {true, true, true}});  // before the first
   EXPECT_NEAR(zone_lengths_mm(edges, true)[1], 0.7, 1e-12);
-  std::ranges::rotate(edges, edges.begin() + 1);  // cut before the end
+  std::rotate(edges.begin(), edges.begin() + 1, edges.end());  // cut before the end
   EXPECT_NEAR(zone_lengths_mm(edges, true)[0], 0.7, 1e-12);
 }
 
