@@ -42,13 +42,6 @@ std::ifstream opened(const char* path) {
   return file;
 }
 
-std::string cpu_model() {
-  std::ifstream file = opened("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
 std::string first_line(const char* path) {
   std::ifstream file = opened(path);
   std::string line;
@@ -63,6 +56,18 @@ std::string host_name() {
 
 }  // namespace
 
+std::string cpu_model(std::istream& cpuinfo) {
+  std::string implementer;
+  for (std::string line; std::getline(cpuinfo, line);) {
+    const auto value = [&] { return line.substr(line.find(':') + 2); };
+    if (line.starts_with("model name")) return value();
+    if (line.starts_with("CPU implementer")) implementer = value();
+    if (line.starts_with("CPU part"))
+      return fmt::format("implementer {}, part {}", implementer, value());
+  }
+  return "unknown";
+}
+
 void set_threads(int threads) {
   set_blas_threads(threads);
   // CHOLMOD requests a fixed number of threads; only the nesting level limits that.
@@ -71,6 +76,7 @@ void set_threads(int threads) {
 }
 
 Context describe_environment(int threads) {
+  std::ifstream cpuinfo = opened("/proc/cpuinfo");
   double load[1] = {0};
   if (getloadavg(load, 1) != 1) load[0] = -1;
   return {
@@ -90,7 +96,7 @@ Context describe_environment(int threads) {
       {"hybrid_kernels", hybrid_kernels<double>().name},
       {"blas_threads", std::to_string(blas_threads())},
       {"google_benchmark", build_info.benchmark_version},
-      {"cpu", cpu_model()},
+      {"cpu", cpu_model(cpuinfo)},
       {"cpus", std::to_string(std::thread::hardware_concurrency())},
       {"cpu_governor", first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")},
       {"kernel", first_line("/proc/sys/kernel/osrelease")},

@@ -1,6 +1,7 @@
 // The environment of a run, its threads, and warnings about uncertain figures.
 #pragma once
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,10 @@
 #include "bench/records/context.hpp"
 
 namespace airybench {
+
+// Of the first processor in /proc/cpuinfo: its name, or what AArch64 has instead, the numbers of
+// its maker and model.
+std::string cpu_model(std::istream& cpuinfo);
 
 void set_threads(int threads);
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <csignal>
+#include <sstream>
 
 #include "bench/measure/case_result.hpp"
 #include "bench/measure/environment.hpp"
@@ -54,6 +55,19 @@ TEST(NoiseKernel, TakesNoNewPagesAfterAFork) {
   EXPECT_LT(faults() - before, 16);
   kill(other, SIGKILL);
   waitpid(other, nullptr, 0);
+}
+
+TEST(CpuModel, IsTheNameOrTheNumbersOfAnAArch64Processor) {
+  const auto model = [](const std::string& text) {
+    std::istringstream cpuinfo(text);
+    return cpu_model(cpuinfo);
+  };
+  EXPECT_EQ(model("processor\t: 0\nmodel\t\t: 1\nmodel name\t: Abacus 9\nflags\t\t:\n"),
+            "Abacus 9");
+  EXPECT_EQ(model("processor\t: 0\nCPU implementer\t: 0x41\nCPU architecture: 8\n"
+                  "CPU variant\t: 0x3\nCPU part\t: 0xd0c\nCPU revision\t: 1\n"),
+            "implementer 0x41, part 0xd0c");
+  EXPECT_EQ(model("processor\t: 0\n"), "unknown");
 }
 
 const Context quiet_machine = {{"cpu_governor", "performance"},
