@@ -10,6 +10,7 @@
 #include "bench/commands/part_solution.hpp"
 #include "bench/commands/run_parts.hpp"
 #include "bench/measure/environment.hpp"
+#include "bench/records/robust.hpp"
 #include "bench/run/adapted_scenes.hpp"
 #include "bench/run/adaptive_loop.hpp"
 #include "solvers/methods.hpp"
@@ -102,12 +103,6 @@ std::vector<std::pair<std::string, double>> phases_of(const LevelTimes& times) {
   phases.emplace_back("rest of the solve", times.solve_s - staged_s);
   phases.emplace_back("estimate", times.estimate_s);
   return phases;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 void print_profile(const std::vector<ProfiledRun>& runs) {

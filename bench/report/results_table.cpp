@@ -201,20 +201,31 @@ std::vector<const TableColumn*> FilledColumns::of_lowest_rank() const {
   return columns;
 }
 
+namespace {
+
+// Of a table with these choices, or that it may have before all records are known.
+std::vector<const TableColumn*> columns_of(const FilledColumns& filled,
+                                           const std::vector<std::string>& chosen) {
+  if (chosen.empty()) return filled.of_lowest_rank();
+  return are_all(chosen) ? filled.all() : columns_named(chosen);
+}
+std::vector<const TableColumn*> candidates(const std::vector<std::string>& chosen) {
+  if (!chosen.empty() && !are_all(chosen)) return columns_named(chosen);
+  std::vector<const TableColumn*> columns;
+  for (const TableColumn& column : table_columns)
+    if (column.rank != if_chosen) columns.push_back(&column);
+  return columns;
+}
+
+}  // namespace
+
 ResultsTable::ResultsTable(const std::vector<std::string>& chosen)
-    : is_limited_(chosen.empty()),
-      chosen_(is_limited_ || are_all(chosen) ? std::vector<const TableColumn*>()
-                                             : columns_named(chosen)) {}
+    : chosen_(chosen), kept_(candidates(chosen)) {}
 
 void ResultsTable::add(const Record& r) {
   filled_.add(r);
   std::string row;
-  const auto add_cell = [&](const TableColumn& column) {
-    row += text_of(column.cell(r), column.kind) + "\t";
-  };
-  for (const TableColumn& column : table_columns)
-    if (chosen_.empty() && column.rank != if_chosen) add_cell(column);
-  for (const TableColumn* column : chosen_) add_cell(*column);
+  for (const TableColumn* column : kept_) row += text_of(column->cell(r), column->kind) + "\t";
   row.shrink_to_fit();
   rows_.push_back(std::move(row));
   if (misses_precision(r)) imprecise_ += imprecise_line(r);
@@ -249,39 +260,26 @@ std::string ResultsTable::reasons() const {
 }
 
 std::string ResultsTable::text() const {
-  std::vector<const TableColumn*> kept = chosen_, shown = chosen_;  // in rows_, in the table
-  if (chosen_.empty()) {
-    for (const TableColumn& column : table_columns)
-      if (column.rank != if_chosen) kept.push_back(&column);
-    shown = is_limited_ ? filled_.of_lowest_rank() : filled_.all();
-  }
+  const std::vector<const TableColumn*> shown = columns_of(filled_, chosen_);
   std::vector<std::vector<std::string>> table(1);
   for (const TableColumn* column : shown) table.front().emplace_back(column->header);
   for (const std::string& row : rows_) {
     std::istringstream cells(row);
     std::string cell;
     table.emplace_back();
-    for (const TableColumn* column : kept)
+    for (const TableColumn* column : kept_)
       if (std::getline(cells, cell, '\t') && std::ranges::find(shown, column) != shown.end())
         table.back().push_back(cell);
   }
   std::string more;
   for (const TableColumn* column : filled_.all())
-    if (is_limited_ && std::ranges::find(shown, column) == shown.end())
+    if (chosen_.empty() && std::ranges::find(shown, column) == shown.end())
       more += (more.empty() ? "" : ", ") + key_of(*column);
   if (!more.empty()) more = fmt::format("not shown: {} (--columns=NAMES or all)\n", more);
   return aligned_table(table, 1) + imprecise_ + noisy_ + reasons() + more;
 }
 
 namespace {
-
-std::vector<const TableColumn*> columns_of(const std::vector<Record>& cases,
-                                           const std::vector<std::string>& chosen) {
-  if (!chosen.empty() && !are_all(chosen)) return columns_named(chosen);
-  FilledColumns filled;
-  for (const Record& record : cases) filled.add(record);
-  return chosen.empty() ? filled.of_lowest_rank() : filled.all();
-}
 
 struct Unit {
   const char* suffix;  // of the header
@@ -321,10 +319,12 @@ std::string text_in(const Unit& unit, const Cell& cell, CellKind kind) {
 }  // namespace
 
 PaperTable paper_table(const std::vector<Record>& cases, const std::vector<std::string>& chosen) {
+  FilledColumns filled;
+  for (const Record& record : cases) filled.add(record);
   PaperTable table;
   table.rows.resize(cases.size());
   std::map<CellKind, Unit> units;  // of all columns of a kind: its first's
-  for (const TableColumn* column : columns_of(cases, chosen)) {
+  for (const TableColumn* column : columns_of(filled, chosen)) {
     std::vector<Cell> cells;
     std::vector<double> numbers;
     for (const Record& record : cases) {

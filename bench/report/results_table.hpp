@@ -36,9 +36,9 @@ class ResultsTable {
   std::string text() const;
 
  private:
-  bool is_limited_;
-  std::vector<const TableColumn*> chosen_;  // empty: by what the records fill
-  std::vector<std::string> rows_;           // the cells that may be shown, each ended by a tab
+  std::vector<std::string> chosen_;
+  std::vector<const TableColumn*> kept_;  // that may be shown
+  std::vector<std::string> rows_;         // their cells, each ended by a tab
   FilledColumns filled_;
   std::string imprecise_, noisy_;
   // Why a case is not ok, or a remark on one that is, which other cases of its scene may share.

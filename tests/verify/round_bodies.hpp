@@ -107,4 +107,21 @@ struct RingInASocket {
   }
 };
 
+// A ring that only its socket holds, under its own weight and a pull in its hole.
+struct RingInSocket {
+  RingInSocket() {
+    using Point = Eigen::Vector2d;
+    EXPECT_EQ(recognise_arcs(mesh), 40);
+    scene.friction = 0.3;
+    scene.crown_radius_mm.reset();
+    scene.displacement_mm = {0, 0};
+    scene.body_force_N_per_mm3 = {0, -2};
+    scene.boundary["force:hole"].traction_MPa = LinearValue<Point>{{Point(1, -3), Point(1, -3)}};
+    scene.boundary["contact:rim"].contact.wall =
+        CircularWall{{0, 0}, 3, CircularWall::Bodies::inside};
+  }
+  Mesh mesh = with_role(small_ring(20, 3, 1, 3), BoundaryRole::displacement, BoundaryRole::contact);
+  Scene scene;
+};
+
 }  // namespace airybench::testing

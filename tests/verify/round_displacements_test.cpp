@@ -128,21 +128,10 @@ TEST_P(RoundDisplacements, OfAWarmBodyHaveItsLoadsStresses) {
             1e-11 * std::sqrt(stress_norm_squared(problem, cold)));
 }
 
-// A ring that only its socket holds, under its own weight and a pull in its hole.
 TEST_P(RoundDisplacements, OfAFreeBodyAreInBalance) {
-  Mesh mesh = testing::with_role(testing::small_ring(20, 3, 1, 3), BoundaryRole::displacement,
-                                 BoundaryRole::contact);
-  EXPECT_EQ(recognise_arcs(mesh), 40);
-  Scene scene;
-  scene.friction = 0.3;
-  scene.crown_radius_mm.reset();
-  scene.displacement_mm = {0, 0};
-  scene.body_force_N_per_mm3 = {0, -2};
-  scene.boundary["force:hole"].traction_MPa = LinearValue<Point>{{Point(1, -3), Point(1, -3)}};
-  scene.boundary["contact:rim"].contact.wall =
-      CircularWall{{0, 0}, 3, CircularWall::Bodies::inside};
-  ContactSystem system =
-      contact_system(std::make_shared<const Problem>(pose(scene, std::move(mesh))), p - 1);
+  testing::RingInSocket ring;
+  ContactSystem system = contact_system(
+      std::make_shared<const Problem>(pose(ring.scene, std::move(ring.mesh))), p - 1);
   const Solution solution =
       solve_load_case(select_methods(displacements_of_degree(p)).front().solve, system, {});
   ASSERT_EQ(solution.status, Status::ok) << solution.message;

@@ -141,21 +141,10 @@ TEST(RoundSides, AreInBalanceUnderTheirOwnWeightToo) {
     }
 }
 
-// A ring that only its socket holds, under its own weight and a pull in its hole.
 TEST(RoundSides, OfAFreeBodyAreInBalanceToo) {
-  Mesh mesh = testing::with_role(testing::small_ring(20, 3, 1, 3), BoundaryRole::displacement,
-                                 BoundaryRole::contact);
-  EXPECT_EQ(recognise_arcs(mesh), 40);
-  Scene scene;
-  scene.friction = 0.3;
-  scene.crown_radius_mm.reset();
-  scene.displacement_mm = {0, 0};
-  scene.body_force_N_per_mm3 = {0, -2};
-  scene.boundary["force:hole"].traction_MPa = LinearValue<Point>{{Point(1, -3), Point(1, -3)}};
-  scene.boundary["contact:rim"].contact.wall =
-      CircularWall{{0, 0}, 3, CircularWall::Bodies::inside};
+  const testing::RingInSocket ring;
   for (int degree = 1; degree <= highest_stress_degree; ++degree) {
-    const testing::Solved solved(scene, mesh, degree);
+    const testing::Solved solved(ring.scene, ring.mesh, degree);
     const Verification v = verify(solved.system, solved.hybrid, nullptr);
     EXPECT_LT(*v.equilibrium_residual, 1e-10) << degree;
     EXPECT_LT(*v.unbalanced_N, 1e-9) << degree;
