@@ -29,14 +29,15 @@ SCENES = {
                                        "displacement": {"support": "normal"}}},
 }
 # Of docs/bodies, with changes to their scenes: friction and a vertex that only one body is held at, three bodies,
-# the same where a roller meets a prescribed vertex, curved faces without friction, a wall next to a pair.
+# the same where a roller meets a prescribed vertex, round faces without friction, a wall next to a pair.
+# Round bodies as polygons: that is what a program in displacements gets, while P2 follows curves.
 JOINED = {
     "two": ("blocks", {}),
     "three": ("stack", {}),
     "at a roller": ("stack", {"roles": {"4": "displacement:side"},
                               "boundary": {"displacement:side": {"support": "normal", "displacement_mm": [0, 0]}}}),
-    "curved": ("cylinders", {}),
-    "at a wall": ("indenter", {"roles": {"11": "contact:floor"},
+    "round": ("cylinders", {"mesh": {"polygon": True}}),
+    "at a wall": ("indenter", {"mesh": {"polygon": True}, "roles": {"11": "contact:floor"},
                                "boundary": {"contact:floor": {"friction": 0.1, "wall": {
                                    "flat": {"point_mm": [0, -20], "normal": [0, 1]}}}}}),
 }
