@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <map>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -27,31 +27,10 @@
 
 namespace {
 
-using Command = int (*)(int argc, const char* const* argv);
-
-// Keyed by the first argument; any other first argument starts a run.
-const std::map<std::string_view, Command> commands = {
-    {"advise", airybench::advise_command},
-    {"check", airybench::check_command},
-    {"claims", airybench::claims_command},
-    {"compare", airybench::compare_command},
-    {"explain", airybench::explain_command},
-    {"export", airybench::export_command},
-    {"export-problem", airybench::export_problem_command},
-    {"list", airybench::list_command},
-    {"merge", airybench::merge_command},
-    {"new-external", airybench::new_external_command},
-    {"new-scene", airybench::new_scene_command},
-    {"profile", airybench::profile_command},
-    {"replay", airybench::replay_command},
-    {"solve", airybench::solve_command},
-    {"track", airybench::track_command},
-    {"validate", airybench::validate_command},
-};
-
 void refuse_misspelt_command(const std::string& word) {
   std::vector<std::string> names;
-  for (const auto& [name, command] : commands) names.emplace_back(name);
+  for (const airybench::Command& command : airybench::all_commands())
+    names.emplace_back(command.name);
   if (const std::string meant = airybench::perhaps(word, names);
       !meant.empty() && !word.starts_with('-'))
     throw airybench::UsageError(
@@ -80,11 +59,15 @@ int run(int argc, char** argv) {
     std::vector<const char*> now;
     for (const std::string& word : words) now.push_back(word.c_str());
     const int count = static_cast<int>(now.size());
-    const auto found = count > 1 ? commands.find(now[1]) : commands.end();
-    if (count > 1 && found == commands.end()) refuse_misspelt_command(now[1]);
-    has_resume = found == commands.end();
-    return has_resume ? airybench::run_command(count, now.data())
-                      : found->second(count - 1, now.data() + 1);
+    if (count > 1) {
+      const auto commands = airybench::all_commands();
+      const auto found =
+          std::ranges::find(commands, std::string_view(now[1]), &airybench::Command::name);
+      if (found != commands.end()) return found->run(count - 1, now.data() + 1);
+      refuse_misspelt_command(now[1]);
+    }
+    has_resume = true;
+    return airybench::run_command(count, now.data());
   } catch (const airybench::HelpRequested& help) {
     std::fputs(help.what(), stdout);
     return airybench::all_ok;

@@ -12,6 +12,8 @@ foreach(program IN ITEMS bench meshgen)
   endif()
   set(name_of_bench airybench)
   set(name_of_meshgen airybench-meshgen)
+  set(help_of_bench --help-all)
+  set(help_of_meshgen --help)
   set(name ${name_of_${program}})
   if(BUILD_SHARED_LIBS)
     set_target_properties(${program} PROPERTIES
@@ -22,7 +24,7 @@ foreach(program IN ITEMS bench meshgen)
   install(CODE "file(RENAME \"${installed}/${program}\" \"${installed}/${name}\")")
   add_custom_command(OUTPUT ${man}/${name}.1.gz VERBATIM
     COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${program}> -D NAME=${name}
-            -D VERSION=${PROJECT_VERSION} -D OUTPUT=${man}/${name}.1.gz
+            -D HELP=${help_of_${program}} -D VERSION=${PROJECT_VERSION} -D OUTPUT=${man}/${name}.1.gz
             -P ${PROJECT_SOURCE_DIR}/cmake/man_page.cmake
     DEPENDS ${program} ${PROJECT_SOURCE_DIR}/cmake/man_page.cmake)
   list(APPEND man_pages ${man}/${name}.1.gz)

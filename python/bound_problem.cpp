@@ -133,7 +133,7 @@ std::shared_ptr<Levels> adapted(const std::shared_ptr<BoundProblem>& problem,
   read_degree(py::str(degree), false, run);
   const Method method = adapting_method(run.adapt.by);
   const Mesh& mesh = problem->body()->mesh;
-  SceneFile scene = scene_on(mesh, scene_file_of(problem->posed.scene_definition, mesh.name));
+  SceneFile scene = scene_of_level_0(problem->posed);
   const AdaptiveSettings settings = {.goals = run.adapt.goals,
                                      .marking = marking,
                                      .timeout_s = timeout,

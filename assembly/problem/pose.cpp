@@ -205,7 +205,7 @@ void check_every_step(const Scene& scene, Problem& problem) {
       std::swap(problem.loads, step);
     } else {
       const Problem of_step = with_loads(problem, step);
-      check_supports(scene, step_prefix(k), of_step);
+      check_supports(scene, key_of_step(k), of_step);
       check_scale(scene, of_step);
     }
   }
@@ -286,7 +286,7 @@ std::vector<Loads> loads_of_steps(const Scene& scene, const ReachableContact& co
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
     change(at, scene.later_steps[k]);
     if (changes_gap(scene.later_steps[k])) gap = contact_gap(contact, at);
-    steps.push_back(loads_of(at, step_prefix(k), mesh, gap));
+    steps.push_back(loads_of(at, key_of_step(k), mesh, gap));
   }
   return steps;
 }
@@ -295,7 +295,7 @@ std::vector<Loads> loads_of_steps(const Scene& scene, const ReachableContact& co
 void check_groups(const Scene& scene, const Mesh& mesh) {
   of_scene(scene, "boundary", [&] { check_labels(scene.boundary, mesh); });
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k)
-    of_scene(scene, step_prefix(k) + "boundary",
+    of_scene(scene, key_of_step(k) + "boundary",
              [&] { check_labels(scene.later_steps[k].boundary, mesh); });
 }
 
@@ -318,7 +318,7 @@ void check_keys_of_walls(const Scene& scene, const Mesh& mesh) {
   if (scene.face) fail(scene, "face", "given", why);
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k)
     if (const auto& clearance_mm = scene.later_steps[k].clearance_mm)
-      fail(scene, step_prefix(k) + "clearance_mm", *clearance_mm, why);
+      fail(scene, key_of_step(k) + "clearance_mm", *clearance_mm, why);
 }
 
 ReachableContact contact_of(const Scene& scene, Mesh mesh) {

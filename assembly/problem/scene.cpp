@@ -73,16 +73,16 @@ void check_contacts_of_step(const Scene& scene, std::size_t k) {
   const std::vector<ContactPair>& contacts = scene.later_steps[k].contacts;
   for (const ContactPair& pair : contacts) {
     if (std::ranges::count(contacts, pair.between, &ContactPair::between) > 1)
-      fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
+      fail(scene, key_of_step(k) + "contacts: between", names_of(pair),
            "twice (allowed: every pair once)");
     const auto own = std::ranges::find(scene.contacts, pair.between, &ContactPair::between);
     if (own == scene.contacts.end() || own->is_bonded())
-      fail(scene, step_prefix(k) + "contacts: between", names_of(pair),
+      fail(scene, key_of_step(k) + "contacts: between", names_of(pair),
            "(allowed: as in contacts of the scene, not bonded)");
     if (pair.friction || !pair.clearance_mm || pair.is_bonded())
-      fail(scene, step_prefix(k) + "contacts", names_of(pair),
+      fail(scene, key_of_step(k) + "contacts", names_of(pair),
            "(allowed: clearance_mm, and no friction)");
-    check_clearance(scene, step_prefix(k), pair);
+    check_clearance(scene, key_of_step(k), pair);
   }
 }
 
@@ -94,20 +94,20 @@ void check_steps(const Scene& scene) {
     fail(scene, "load_steps", scene.equal_steps, "and a list (allowed: one of them)");
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
     const LoadStep& step = scene.later_steps[k];
-    of_scene(scene, step_prefix(k) + "boundary", [&] { check_values_of_step(step.boundary); });
-    check_loads(scene, step_prefix(k), step.temperature_K, step.clearance_mm.value_or(0),
+    of_scene(scene, key_of_step(k) + "boundary", [&] { check_values_of_step(step.boundary); });
+    check_loads(scene, key_of_step(k), step.temperature_K, step.clearance_mm.value_or(0),
                 step.displacement_mm.value_or(Eigen::Vector2d::Zero()),
                 step.body_force_N_per_mm3.value_or(Eigen::Vector2d::Zero()));
     for (const auto& [label, values] : step.boundary) {
       if (values.contact.clearance_mm && is_paired(scene, label))
-        fail(scene, step_prefix(k) + "boundary: " + label, "clearance_mm",
+        fail(scene, key_of_step(k) + "boundary: " + label, "clearance_mm",
              "of a group in contacts (allowed: clearance_mm of the pair, in contacts)");
       for (const auto& [key, is_given] :
            {std::pair("friction", values.contact.friction.has_value()),
             {"wall", values.contact.wall.has_value()},
             {"face", values.contact.face.has_value()}})
         if (is_given)
-          fail(scene, step_prefix(k) + "boundary: " + label, key,
+          fail(scene, key_of_step(k) + "boundary: " + label, key,
                "(allowed: traction_MPa, pressure_MPa, displacement_mm, support, clearance_mm)");
     }
     check_contacts_of_step(scene, k);

@@ -26,7 +26,7 @@ auto of_scene(const Scene& scene, const std::string& key, auto change) {
 }
 
 // Of what later_steps[k] gives.
-inline std::string step_prefix(std::size_t k) {
+inline std::string key_of_step(std::size_t k) {
   return "load_steps: " + std::to_string(k + 1) + ": ";
 }
 

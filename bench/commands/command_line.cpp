@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/plan/plan.hpp"
 #include "mesh/model_settings.hpp"
 #include "support/called_as.hpp"
 #include "support/errors.hpp"
@@ -38,6 +39,8 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     throw HelpRequested(with_commands(app.help()));
+  } catch (const CLI::CallForAllHelp&) {
+    throw HelpRequested(with_commands(app.help("", CLI::AppFormatMode::All)));
   } catch (const CLI::CallForVersion&) {
     throw HelpRequested(app.version() + "\n");
   } catch (const CLI::ExtrasError& error) {
@@ -156,6 +159,15 @@ void add_one_body(CLI::App& app, RunSettings& run) {
   add_model_settings(app, run.model_settings);
   app.add_option("--scene", run.scenes, "scene file; default: the documented tooth or rack")
       ->expected(1);
+}
+
+void add_part(CLI::App& app, RunSettings& run) {
+  app.add_option("MODEL", run.meshes, "a mesh, a model or an input deck")
+      ->required()
+      ->default_str("");
+  app.add_option("SCENE", run.scenes, "its materials, supports, loads and contact")->expected(0, 1);
+  add_whole(app, "--steps", 1, max_load_steps, run.equal_steps, "number of equal load steps");
+  add_model_settings(app, run.model_settings);
 }
 
 }  // namespace airybench

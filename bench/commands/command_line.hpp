@@ -62,6 +62,8 @@ void add_memory_limit(CLI::App& app, Limits& limits);
 void add_model_settings(CLI::App& app, std::vector<std::string>& settings);
 // --mesh with model settings, and --scene: one of each.
 void add_one_body(CLI::App& app, RunSettings& run);
+// MODEL, SCENE, --steps and model settings, of one part.
+void add_part(CLI::App& app, RunSettings& run);
 
 // --degree: of HYBRID, for the levels and, unless methods were given, for the cases. After the
 // goals of --adapt, which `auto` goes by. Throws UsageError.

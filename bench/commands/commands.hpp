@@ -2,10 +2,24 @@
 // and throw HelpRequested, InputError (wrong usage, an unusable file) and Interrupted.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace airybench {
+
+struct Command {
+  const char* name;
+  const char* operand;  // as help shows it
+  const char* about;
+  int (*run)(int argc, const char* const* argv);
+};
+
+std::span<const Command> all_commands();
+
+// One line for each command, and `bench --help`: these, a run's main options, examples.
+std::string list_of_commands();
+std::string overview();
 
 int advise_command(int argc, const char* const* argv);
 int check_command(int argc, const char* const* argv);

@@ -39,22 +39,16 @@ Options parse_profile(int argc, const char* const* argv) {
   Options options = options_of_part();
   options.output.folder = "results/profile";
   options.limits.repetitions = 9;
-  std::string error = "0.1%", degree = "auto", scene;
+  std::string error = "0.1%", degree = "auto";
   CLI::App app("Where the time of the adaptive loop goes.", "{bench} profile");
   app.footer(profile_footer);
-  app.add_option("MODEL", options.run.meshes, "a mesh of the catalogue or a file, or a model")
-      ->required();
-  app.add_option("SCENE", scene, "its scene");
+  add_part(app, options.run);
   app.add_option("--error", error, "total error, relative")->capture_default_str();
-  add_whole(app, "--steps", 1, max_load_steps, options.run.equal_steps,
-            "load in so many equal steps");
   app.add_option("--degree", degree, "of the stresses: 1 to 4, auto")->capture_default_str();
-  add_model_settings(app, options.run.model_settings);
   add_whole(app, "--repetitions", 1, 1000, options.limits.repetitions, "runs of the loop");
   app.add_option("--out", options.output.folder, "folder of converted models")
       ->capture_default_str();
   parse_command_line(app, argc, argv);
-  if (!scene.empty()) options.run.scenes = {scene};
   const std::optional<AdaptGoal> goal = adapt_goal_of(error);
   if (!goal || !goal->error)
     throw UsageError(
@@ -154,9 +148,7 @@ int profile_command(int argc, const char* const* argv) {
   const PosedScene start = one_posed_scene(options);
   set_threads(1);
   const Mesh& mesh = start.body()->mesh;
-  const Scene scene =
-      scene_on(mesh, scene_file_of(start.scene_definition, mesh.name + "/" + start.scene_name))
-          .scene;
+  const Scene scene = scene_of_level_0(start).scene;
   std::vector<ProfiledRun> runs;
   for (int run = 0; run < options.limits.repetitions; ++run) {
     throw_if_interrupted();

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bench/commands/command_line.hpp"
+#include "bench/commands/commands.hpp"
 #include "bench/commands/former_options.hpp"
 #include "bench/measure/build_info.hpp"
 #include "bench/run/runner.hpp"
@@ -19,24 +20,6 @@ namespace airybench {
 namespace {
 
 constexpr const char* run_footer = R"(
-Other commands (each has --help)
-  {bench} solve MODEL        forces, pressure, stress and displacement of a part
-  {bench} advise             which mesh and which method give the error that you choose
-  {bench} list               meshes, methods, contact solvers and studies
-  {bench} explain            stages that each case of a run has, those left out and why
-  {bench} new-scene MODEL    a scene for a model, to fill in
-  {bench} new-external NAME  another program, which runs as it is, and its declaration
-  {bench} check PROGRAM      the mistakes of another program, found by small cases
-  {bench} claims DIR         the paper's sentences, checked against a results folder
-  {bench} compare A,… B,…    two programs' runs, case by case: faster, slower, or not separated
-  {bench} track              a run that is added to a history and judged
-  {bench} validate           published values, closed forms and benchmarks, and ours
-  {bench} export DIR         tables for papers; Google Benchmark's JSON, CSV
-  {bench} export-problem     a problem's matrices, for your own solvers
-  {bench} merge DIR...       the shards of a run, joined
-  {bench} profile MODEL      where the time of the adaptive loop goes
-  {bench} replay RECORD      one recorded case, run again
-
 Everything after "--" goes to Google Benchmark.
 
 Exit status  0  every case is ok, or skipped with a reason
@@ -76,7 +59,7 @@ std::string footer() {
   std::string text = "\nStudies\n";
   for (const Study& study : all_studies())
     text += fmt::format("  {:<10}  {}\n", study.name, study.about);
-  return text + run_footer;
+  return text + "\n" + list_of_commands() + run_footer;
 }
 
 // Option values that are parsed after CLI11.
@@ -361,6 +344,13 @@ Options parse_options(int argc, const char* const* argv, Asked asked) {
                         "is solved.",
                is_run ? "{bench}" : "{bench} explain");
   app.footer(is_run ? footer() : explain_footer);
+  if (is_run) {
+    app.set_help_all_flag("--help-all", "every option");
+    app.formatter_fn([](const CLI::App* run, std::string name, CLI::AppFormatMode mode) {
+      return mode == CLI::AppFormatMode::Normal ? overview()
+                                                : CLI::Formatter().make_help(run, name, mode);
+    });
+  }
   app.set_version_flag("--version", std::string("airybench ") + build_info.version);
   add_cases(app, options, texts);
   add_measuring(app, options, texts);

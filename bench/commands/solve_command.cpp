@@ -60,18 +60,14 @@ Options parse_solve(int argc, const char* const* argv, PartGoal& goal, bool& htm
   Options options = options_of_part();
   options.output.folder = "results/solve";
   options.run.cases.picture = options.run.needs_scene = true;
-  std::string error = "1%", degree = "auto", scene;
+  std::string error = "1%", degree = "auto";
   CLI::App app("A part's forces, pressure, stress and displacement, and how far they may be off.",
                "{bench} solve");
   app.footer(solve_footer);
-  app.add_option("MODEL", options.run.meshes, "a mesh, a model or an input deck")->required();
-  app.add_option("SCENE", scene, "its materials, supports, loads and contact");
+  add_part(app, options.run);
   app.add_option("--error", error, "total error, relative: 1%, 1%:force, 1%:pressure")
       ->capture_default_str();
-  add_whole(app, "--steps", 1, max_load_steps, options.run.equal_steps,
-            "number of equal load steps");
   app.add_option("--degree", degree, "of the stresses: 2 to 4, auto")->capture_default_str();
-  add_model_settings(app, options.run.model_settings);
   add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
              "seconds that one solve may take");
   add_memory_limit(app, options.limits);
@@ -79,7 +75,6 @@ Options parse_solve(int argc, const char* const* argv, PartGoal& goal, bool& htm
   app.add_option("--out", options.output.folder, "folder of the output files")
       ->capture_default_str();
   parse_command_line(app, argc, argv);
-  if (!scene.empty()) options.run.scenes = {scene};
   goal = goal_of(error);
   ask_for(goal, degree, options);
   return options;

@@ -138,7 +138,7 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
   if (is_by_program && reference(1) == nullptr)
     return {has_answer(verdict.status) ? Status::inaccurate : verdict.status,
             "its error is not known: " + references(1).missing};
-  result.of_mesh = is_by_program ? error_of_displacement(result.steps)
+  result.of_mesh = is_by_program ? total_error_of_program(result.steps)
                                  : discretisation_error(method, result.is_other_solution);
   result.of_mesh.total.set_method_errors(errors_of_method(result.steps));
   const std::vector<StepResult>* const halves = half_steps(method.degree);

@@ -78,10 +78,11 @@ class Judge {
   bool wants_intervals(int degree) const;
   // Null: stresses or displacements are missing.
   const Discretisation* discretisation(Bound bound, int degree);
+  Solve stresses_of_bound(Bound bound, int degree);
   std::optional<Discretisation> compute_discretisation(Bound bound, int degree);
   DiscretisationError discretisation_error(const Method& method, bool is_other_solution);
   // For an external program with references: its displacements, made admissible.
-  DiscretisationError error_of_displacement(const std::vector<JudgedStep>& steps);
+  DiscretisationError total_error_of_program(const std::vector<JudgedStep>& steps);
   // A path with friction in twice as many steps; null without such a path or a reference.
   const std::vector<StepResult>* half_steps(int degree);
 

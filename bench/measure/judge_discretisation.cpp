@@ -20,7 +20,7 @@ std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
   if (method.in_displacements()) return Bound::displacement;
   // P2's displacements are those of a body with curves, stresses of degree 1 of one with chords.
   const bool by_displacements =
-      common_.error_of_displacements && method.degree == 1 && problem_->round.empty();
+      common_.total_error_by_displacements && method.degree == 1 && problem_->round.empty();
   return by_displacements ? Bound::displacement : Bound::recovery;
 }
 
@@ -69,9 +69,30 @@ void add_intervals(const ContactIntervals& intervals, StepMeshError& step) {
   }
 }
 
-std::pair<ConstitutiveError, DisplacementField> error_of_displacements(const ContactSystem& system,
-                                                                       const Solution& reference,
-                                                                       const DisplacementField& u) {
+struct SolvedDisplacement {
+  DisplacementField u;
+  Eigen::VectorXd free_motion_mm;
+};
+
+// Of P2, P3, ... by load step, as far as they are solved, written in polynomials of `elevated_to`.
+std::vector<SolvedDisplacement> solved_displacements(const std::shared_ptr<const Problem>& problem,
+                                                     int degree, int elevated_to) {
+  std::vector<SolvedDisplacement> of_steps;
+  solve_load_steps(
+      select_methods(displacements_of_degree(degree)).front(), problem, {},
+      [&](int, const ContactSystem&, const Solution& answer) {
+        if (answer.status == Status::ok)
+          of_steps.push_back(
+              {elevated(*problem, std::get<Displacements>(answer.unknowns).w, elevated_to),
+               answer.free_motion_mm});
+      });
+  return of_steps;
+}
+
+// Of displacements, made admissible where they are not.
+std::pair<ConstitutiveError, DisplacementField> error_if_admissible(const ContactSystem& system,
+                                                                    const Solution& reference,
+                                                                    const DisplacementField& u) {
   ConstitutiveError error = constitutive_error(system, reference.stress, reference.F_C, u);
   const bool all_straight = CurvedTraces(*system.problem, displacement_degree(*system.problem, u),
                                          sides_of_stresses(system.degree))
@@ -93,58 +114,51 @@ Solve Judge::references_one_by_one(int degree) {
   };
 }
 
+Solve Judge::stresses_of_bound(Bound bound, int degree) {
+  if (bound == Bound::displacement) return references_one_by_one(degree);
+  const Method method = select_methods(common_.stresses_by).front();
+  return method.degree == degree ? method.solve
+                                 : select_methods(hybrid_of_degree(degree)).front().solve;
+}
+
 // Each step's system measures slip from the stresses' own past.
 std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, int degree) {
   const ActivityScope scope(board_, Activity::discretisation);
-  struct OwnDisplacement {
-    DisplacementField u;
-    Eigen::VectorXd free_motion_mm;
-  };
-  std::vector<OwnDisplacement> own_u;
+  const bool by_displacements = bound == Bound::displacement;
   const int of_stresses = degree_of_stresses(bound, degree);
-  Method method = select_methods(common_.stresses_by).front();
-  if (method.degree != of_stresses) method = select_methods(hybrid_of_degree(of_stresses)).front();
-  Solve solve = method.solve;
-  if (bound == Bound::displacement) {
-    solve_load_steps(
-        select_methods(displacements_of_degree(degree + 1)).front(), problem_, {},
-        [&](int, const ContactSystem&, const Solution& answer) {
-          if (answer.status == Status::ok)
-            own_u.push_back(
-                {elevated(*problem_, std::get<Displacements>(answer.unknowns).w, of_stresses + 1),
-                 answer.free_motion_mm});
-        });
-    if (std::ssize(own_u) < count_of_steps(*problem_)) return {};
-    solve = references_one_by_one(of_stresses);
-  }
+  const std::vector<SolvedDisplacement> solved_u =
+      by_displacements ? solved_displacements(problem_, degree + 1, of_stresses + 1)
+                       : std::vector<SolvedDisplacement>();
+  if (by_displacements && std::ssize(solved_u) < count_of_steps(*problem_)) return {};
   Discretisation found;
   DiscretisationError& result = found.result;
   ConstitutiveError& error = found.error;
   DisplacementField& u = found.u;
-  result.by = bound == Bound::displacement ? displacements_of_degree(degree + 1) : "recovery";
+  result.by = by_displacements ? displacements_of_degree(degree + 1) : "recovery";
   std::optional<ResultantLifts> lifts;
   std::shared_ptr<const Problem> lifted;
   ContactSystem system = contact_system(problem_, of_stresses);
   solve_load_steps(
-      solve, system, {}, [&](int step, const ContactSystem& posed, const Solution& own) {
+      stresses_of_bound(bound, of_stresses), system, {},
+      [&](int step, const ContactSystem& posed, const Solution& own) {
         if (own.status != Status::ok) return;
-        if (bound == Bound::displacement) {
-          const OwnDisplacement& solved = own_u[static_cast<std::size_t>(step)];
+        if (by_displacements) {
+          const SolvedDisplacement& solved = solved_u[static_cast<std::size_t>(step)];
           std::optional<ContactSystem> moved;  // as these displacements, where a body is free to
           if (solved.free_motion_mm.size() > 0)
             moved.emplace(posed).set_load_case(std::make_shared<const Problem>(
                 with_free_motion(*posed.problem, solved.free_motion_mm)));
-          std::tie(error, u) = error_of_displacements(moved ? *moved : posed, own, solved.u);
+          std::tie(error, u) = error_if_admissible(moved ? *moved : posed, own, solved.u);
         } else {
           u = recovered_displacement(posed, own);
           error = constitutive_error(posed, own.stress, own.F_C, u);
         }
-        result.total.add(error, prefix_of(step),
-                         bound == Bound::displacement ? TotalError::Of::displacements
-                                                      : TotalError::Of::stresses);
+        result.total.add(
+            error, prefix_of(step),
+            by_displacements ? TotalError::Of::displacements : TotalError::Of::stresses);
         result.of_steps.push_back(bounds(error));
         result.intervals.reset();
-        if (bound == Bound::displacement || !error.flaw.empty() || !wants_intervals(degree)) return;
+        if (by_displacements || !error.flaw.empty() || !wants_intervals(degree)) return;
         if (!lifts || !same_supports(*problem_, lifted->loads, posed.problem->loads)) {
           lifted = posed.problem;
           lifts = resultant_lifts(*lifted, degree);
@@ -157,7 +171,7 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, 
   return found;
 }
 
-DiscretisationError Judge::error_of_displacement(const std::vector<JudgedStep>& steps) {
+DiscretisationError Judge::total_error_of_program(const std::vector<JudgedStep>& steps) {
   DiscretisationError result;
   if (std::ssize(steps) < count_of_steps(*problem_)) return result;
   result.by = "its own displacements";

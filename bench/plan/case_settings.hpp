@@ -38,7 +38,7 @@ struct CaseSettings {
   std::vector<Eigen::Vector2d> points_mm = {};  // … and stress and displacement there
   bool mean_fields = false;  // … and their mean with the stresses of displacements
   // The total error of degree 1 comes from the displacements of P2; false: from recovered ones.
-  bool error_of_displacements = false;
+  bool total_error_by_displacements = false;
   std::string stresses_by = "HYBRID";  // the method whose stresses recovery starts from
 };
 

@@ -46,7 +46,7 @@ CaseSettings common_settings(const RunSettings& run) {
   asked.timed_once |= run.study.once;
   asked.condition = run.study.condition;
   asked.intervals = run.study.intervals || asked.fields || !run.adapt.goals.empty();
-  asked.error_of_displacements = run.study.points == Study::Points::accuracy;
+  asked.total_error_by_displacements = run.study.points == Study::Points::accuracy;
   asked.stresses_by = run.adapt.by;
   return asked;
 }

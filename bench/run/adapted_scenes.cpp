@@ -153,7 +153,9 @@ Method adapting_method(const std::string& name) {
   throw UsageError(fmt::format("--adapt: by={} (allowed: {})", shortened(name), allowed));
 }
 
-SceneFile scene_on(const Mesh& mesh, SceneFile file) {
+SceneFile scene_of_level_0(const PosedScene& start) {
+  const Mesh& mesh = start.body()->mesh;
+  SceneFile file = scene_file_of(start.scene_definition, mesh.name + "/" + start.scene_name);
   Scene& scene = file.scene;
   for (std::size_t k = 0; k < mesh.body_names.size() && !scene.layer_materials.empty(); ++k)
     scene.materials.try_emplace(mesh.body_names[k],
@@ -196,7 +198,7 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
   adapting_method(options.run.adapt.by);  // a usage error here, not in the loop's process
   const Mesh& mesh = start.body()->mesh;
   const std::string name = mesh.name + "/" + start.scene_name;
-  const SceneFile on_mesh = scene_on(mesh, scene_file_of(start.scene_definition, name));
+  const SceneFile on_mesh = scene_of_level_0(start);
   const std::string definition = on_mesh.definition();
   const std::filesystem::path folder = options.output.folder / "meshes" / start.scene_name;
   const std::filesystem::path scene_file = folder / mesh.name / (start.scene_name + ".json");

@@ -18,9 +18,9 @@ struct AdaptedScenes {
 };
 
 Method adapting_method(const std::string& name);  // throws UsageError
-// The scene on the mesh that it made (layers are bodies there, bonded faces inner edges): without
-// what would change that mesh again.
-SceneFile scene_on(const Mesh& mesh, SceneFile file);
+// The scene on the mesh that it was posed on (layers are bodies there, bonded faces inner edges):
+// without what would change that mesh again.
+SceneFile scene_of_level_0(const PosedScene& start);
 // Prints progress to standard error. Throws UsageError, FileError, Interrupted.
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <map>
 
+#include "bench/commands/commands.hpp"
 #include "bench/records/json.hpp"
 #include "tests/support/background_run.hpp"
 #include "tests/support/bench_command.hpp"
@@ -338,19 +339,31 @@ TEST(Command, ARunSaysThatItReplacesTheRecordsOfItsFolder) {
     EXPECT_EQ(bench.run(run + kept).err.find(said), std::string::npos) << kept;
 }
 
+TEST(Command, HelpIsOneScreenAndNamesEveryCommand) {
+  const std::vector<std::string> lines = lines_of(BenchCommand().run("--help").out);
+  EXPECT_LE(lines.size(), 45u);
+  for (const Command& command : all_commands())
+    EXPECT_EQ(std::ranges::count_if(lines,
+                                    [&](const std::string& line) {
+                                      return line.starts_with(fmt::format("  {} ", command.name));
+                                    }),
+              1)
+        << command.name;
+}
+
 // As the script was typed, or else this program.
-TEST(Command, PrintedCommandsBeginWithWhatTheUserStarted) {
+TEST(Command, HelpBeginsCommandsWithWhatTheUserStarted) {
   const BenchCommand bench;
-  const std::string typed = testing::bench_executable().string(), list = bench.run("--help").out;
-  for (const char* command : {"", "advise ", "check ", "claims ", "compare ", "explain ", "export ",
-                              "export-problem ", "list ", "merge ", "new-external ", "new-scene ",
-                              "profile ", "replay ", "solve ", "track ", "validate "}) {
-    EXPECT_NE(list.find("\n  " + typed + " " + command), std::string::npos) << command;
-    const std::string asked = std::string(command) + "--help";
+  const std::string typed = testing::bench_executable().string();
+  std::vector<std::string> asked = {"--help", "--help-all"};
+  for (const Command& command : all_commands())
+    asked.push_back(fmt::format("{} --help", command.name));
+  for (const std::string& words : asked) {
+    const std::string command = words.starts_with('-') ? "" : words.substr(0, words.find(' ') + 1);
     for (const auto& [before, called] :
          {std::pair("", typed),
           std::pair("export AIRYBENCH_CALLED_AS=../run; ", std::string("../run bench"))}) {
-      const std::string help = bench.run(asked, before).out;
+      const std::string help = bench.run(words, before).out;
       EXPECT_NE(help.find("Usage: " + called + " " + command), std::string::npos) << help;
       EXPECT_EQ(help.find("\n  bench "), std::string::npos) << help;
       for (const char* left : {"{bench}", "{run}", "{meshgen}"})

@@ -1,0 +1,70 @@
+#include "bench/commands/commands.hpp"
+
+#include <fmt/format.h>
+
+namespace airybench {
+namespace {
+
+constexpr Command commands[] = {
+    {"solve", "MODEL", "forces, pressure, stress and displacement of a part", solve_command},
+    {"advise", "", "which mesh and which method give the error that you choose", advise_command},
+    {"list", "", "meshes, methods, contact solvers and studies", list_command},
+    {"explain", "", "stages that each case of a run has, those left out and why", explain_command},
+    {"new-scene", "MODEL", "a scene for a model, to fill in", new_scene_command},
+    {"new-external", "NAME", "another program, which runs as it is, and its declaration",
+     new_external_command},
+    {"check", "PROGRAM", "the mistakes of another program, found by small cases", check_command},
+    {"claims", "DIR", "the paper's sentences, checked against a results folder", claims_command},
+    {"compare", "A,… B,…", "two programs' runs, case by case: faster, slower, or not separated",
+     compare_command},
+    {"track", "", "a run that is added to a history and judged", track_command},
+    {"validate", "", "published values, closed forms and benchmarks, and ours", validate_command},
+    {"export", "DIR", "tables for papers; Google Benchmark's JSON, CSV", export_command},
+    {"export-problem", "", "a problem's matrices, for your own solvers", export_problem_command},
+    {"merge", "DIR...", "the shards of a run, joined", merge_command},
+    {"profile", "MODEL", "where the time of the adaptive loop goes", profile_command},
+    {"replay", "RECORD", "one recorded case, run again", replay_command},
+};
+
+constexpr const char* usage = R"(
+Usage: {bench} [OPTIONS]            a run: every mesh, scene and method chosen
+       {bench} COMMAND [OPTIONS]    one of these, each with --help
+
+)";
+
+constexpr const char* main_options = R"(
+Main options of a run ({bench} --help-all: every option, the exit codes, more examples)
+  --mesh=MESHES      Mesh0..Mesh3, Mesh1,Mesh4, a glob, or files: meshes and CAD models
+  --scene=FILES      loads, friction, materials; default: the documented tooth or rack
+  --method=METHODS   names or globs; default: the paper's, for your own bodies HYBRID and P2
+  --adapt=GOALS      refine where the error is, until it is below 1%, or until 50000 unknowns
+  --study=NAME       error, stability, adapted, ...: cases and options that answer one question
+  --external=FILES   other programs next to ours
+  --fields           stresses, displacements and total errors, too
+  --dry-run          what would run, and how long it would take
+  --out=FOLDER       records, tables and figures; default: results/latest
+
+Examples
+  {bench} --mesh=Mesh0..Mesh3 --method='3STEPD*,HYBRID'
+  {bench} --mesh=part.geo --role=clamped=displacement --scene=load.json --adapt=1%
+  {bench} solve part.step scene.json --error=1%
+)";
+
+}  // namespace
+
+std::span<const Command> all_commands() { return commands; }
+
+std::string list_of_commands() {
+  std::string text = "Commands\n";
+  for (const Command& command : commands)
+    text += fmt::format("  {:<19}  {}\n", fmt::format("{} {}", command.name, command.operand),
+                        command.about);
+  return text;
+}
+
+std::string overview() {
+  return "Time, memory and error of methods for contact with friction solved in stresses.\n" +
+         std::string(usage) + list_of_commands() + main_options;
+}
+
+}  // namespace airybench
