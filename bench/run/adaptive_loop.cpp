@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "assembly/problem/matched_faces.hpp"
 #include "assembly/problem/pose.hpp"
@@ -73,7 +74,8 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
     limit.emplace(heap::live_bytes() + *settings_.memory_limit_bytes);
   TotalError error;
   const auto solving = std::chrono::steady_clock::now();
-  solve_load_steps(method_.solve, system, control,
+  const std::vector<bool> candidates = std::exchange(closed_, {}).candidates(problem->mesh);
+  solve_load_steps(on_candidates(method_.solve, *problem, candidates), system, control,
                    [&](int step, const ContactSystem& posed, const Solution& answer) {
                      const SecondsInto timer(level.times.estimate_s);
                      limit.reset();
@@ -110,6 +112,7 @@ void AdaptiveLoop::judge_step(int step, const Problem& path, const ContactSystem
                          prefix, name_of(solution.status), solution.message);
     return;
   }
+  closed_.add(system, solution);
   const DisplacementField w = recovered_displacement(system, solution);
   const ConstitutiveError of_step = constitutive_error(system, solution.stress, solution.F_C, w);
   error.add(of_step, prefix);

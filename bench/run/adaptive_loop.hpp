@@ -15,6 +15,9 @@
 // often, which adds at most a tenth of the triangles. The last levels mark less if e ~ 1/N predicts
 // an overshoot.
 //
+// From the second level on the contact law is formed near edges that had force on the level before
+// (contact_candidates.hpp).
+//
 // Where the error is met and the largest stress is not known as well as asked for, the triangles
 // that may have it, and those around them, are halved in size.
 #pragma once
@@ -24,6 +27,7 @@
 #include "assembly/problem/scene.hpp"
 #include "bench/measure/part_answer.hpp"
 #include "bench/plan/options.hpp"
+#include "solvers/contact/contact_candidates.hpp"
 #include "solvers/methods.hpp"
 #include "verify/expected_parts.hpp"
 #include "verify/total_error.hpp"
@@ -99,6 +103,7 @@ class AdaptiveLoop {
   std::vector<double> parts_, of_chords_;
   MeshEdges edges_;
   double squared_ = 0;                // their sum
+  ClosedEdges closed_;                // of all load steps of the last level
   std::optional<StressDoubt> doubt_;  // of the last load step's largest stress
   std::vector<double> doubts_;        // of levels that were refined for it, relative
   // The last refinement: the uncorrected expectation, and the ratios of actual to expected.
