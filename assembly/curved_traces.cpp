@@ -187,7 +187,7 @@ PrescribedDisplacement CurvedTraces::prescribed() const {
 
 double CurvedTraces::squared_distance(int triangle, const StressCoefficients& stress,
                                       const DisplacementTriangle::Displacement& w) const {
-  using Points = CurvedSide<double>;
+  using Points = CurvedThird<double>;
   const int k = degree_ - 1;
   const Eigen::Index third = bernstein_count(k);
   const auto& element = DisplacementTriangle::of_degree(degree_);
@@ -222,8 +222,8 @@ double CurvedTraces::squared_distance(int triangle, const StressCoefficients& st
     }
     const auto of_third = stress.middleCols(third * e, third);
     for (int q = 0; q < Points::points; ++q)
-      for (int l = 0; l < Points::layers; ++l) {
-        const auto [rho, area] = side.layer(centroid, q, l);
+      for (int l = 0; l <= k; ++l) {
+        const auto [rho, area] = side.layer(centroid, q, l, k + 1);
         Eigen::Matrix2d J, gradient;  // of x, and of ρ² times what is more, to ρ and ξ
         J << side.at(q) - centroid, rho * Eigen::Vector2d(-side.normal(q).y(), side.normal(q).x());
         gradient << 2 * rho * more.row(q).transpose(), rho * rho * slope.row(q).transpose();

@@ -18,10 +18,10 @@ void for_points(const TriangleVertices& v, const CurvedSides& curves, const Visi
   const Eigen::Vector2d centroid = v.rowwise().mean();
   for (int k = 0; k < 3; ++k) {
     const std::vector<Eigen::Vector2d> chord = {v.col(k), v.col((k + 1) % 3)};
-    const CurvedSide<double> side(
+    const CurvedThird<double> side(
         {curves[k].is_straight() ? std::span(chord) : curves[k].points_mm, {}, {}}, 1);
-    for (int q = 0; q < CurvedSide<double>::points; ++q)
-      for (int l = 0; l < CurvedSide<double>::layers; ++l) {
+    for (int q = 0; q < CurvedThird<double>::points; ++q)
+      for (int l = 0; l < CurvedThird<double>::max_layers; ++l) {
         const auto [rho, area] = side.layer(centroid, q, l);
         visit(Eigen::Vector2d(centroid + rho * (side.at(q) - centroid)), area);
       }
@@ -209,7 +209,7 @@ double work_beyond_chords(const Problem& problem, const FreeMotions& free, int d
       Eigen::Matrix<double, 2, 3> corners;  // of the third; ∫ of linear functions from them
       corners << v.col(k), v.col((k + 1) % 3), v.rowwise().mean();
       const Eigen::MatrixXd root =
-          CurvedSide<double>(problem.curve_of(row, 1), 1).mass_root(corners.col(2));
+          CurvedThird<double>(problem.curve_of(row, 1), 1).mass_root(corners.col(2));
       const Eigen::Vector3d weight = root.transpose() * root.rowwise().sum();
       for (int i = 0; i < 3; ++i)
         work += (weight(i) - problem.area_mm2(triangle) / 9) *

@@ -127,7 +127,7 @@ double curved_product(const TriangleVertices& v, double area_mm2, const CurvedSi
     const Eigen::MatrixXd root =
         (curves[t].is_straight()
              ? of_straight
-             : CurvedSide<double>(curves[t], degree).mass_root(v.rowwise().mean()))
+             : CurvedThird<double>(curves[t], degree).mass_root(v.rowwise().mean()))
             .transpose();
     const auto weighted = [&](const StressCoefficients& stress) {
       return Eigen::Matrix3Xd(stress.middleCols(n * t, n).lazyProduct(root));

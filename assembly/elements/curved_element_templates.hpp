@@ -58,6 +58,22 @@ const LagrangeBasis<Scalar>& basis_at(int parts, int q) {
   return bases.at(static_cast<std::size_t>((parts - 1) * n + q));
 }
 
+// ρ and weights of 1, 2, ... points.
+template <typename Scalar>
+struct AcrossRule {
+  const Scalar *at, *weight;
+};
+template <typename Scalar, int max_points>
+const AcrossRule<Scalar>& rule_across(int points) {
+  static const auto rules = []<int... n>(std::integer_sequence<int, n...>) {
+    return std::array<AcrossRule<Scalar>, max_points>{
+        AcrossRule<Scalar>{GaussPoints<Scalar, n + 1>::get().at.data(),
+                           GaussPoints<Scalar, n + 1>::get().weight.data()}...};
+  }
+  (std::make_integer_sequence<int, max_points>());
+  return rules.at(static_cast<std::size_t>(points - 1));
+}
+
 // Columns: the normal and its tangent.
 template <typename Scalar>
 Eigen::Matrix2<Scalar> frame_from(const Eigen::Vector2<Scalar>& direction) {
@@ -94,30 +110,43 @@ CurvePoint<Scalar>::CurvePoint(const SideCurve& curve, const Basis& basis_of)
 }
 
 template <typename Scalar>
-CurvedSide<Scalar>::CurvedSide(const SideCurve& curve, int degree)
+CurvedThird<Scalar>::CurvedThird(const SideCurve& curve, int degree)
     : degree_(degree),
       a_(curve.points_mm.front().cast<Scalar>()),
       b_(curve.points_mm.back().cast<Scalar>()) {
+  for (int q = 0; q < points; ++q) {
+    const CurvePoint<Scalar> point({curve.points_mm, {}, {}},
+                                   [q](int parts) -> const LagrangeBasis<Scalar>& {
+                                     return curved_formulas::basis_at<Scalar, points>(parts, q);
+                                   });
+    at_[q] = point.at;
+    normal_[q] = Vector(point.tangent.y(), -point.tangent.x());
+  }
+}
+
+template <typename Scalar>
+CurvedSide<Scalar>::CurvedSide(const SideCurve& curve, int degree)
+    : CurvedThird<Scalar>(curve, degree) {
   const int count = degree + 1;
   const bool has_law = !curve.law_normals.empty();
   std::vector<Eigen::Matrix2<Scalar>> fixed;  // R_jᵀ
-  for (const Eigen::Vector2d& normal : curve.moment_normals)
-    fixed.push_back(curved_formulas::frame_from<Scalar>(normal.cast<Scalar>()).transpose());
+  for (const Eigen::Vector2d& n : curve.moment_normals)
+    fixed.push_back(curved_formulas::frame_from<Scalar>(n.cast<Scalar>()).transpose());
   Matrix pairing = Matrix::Zero(2 * count, 2 * count);
   for (int q = 0; q < points; ++q) {
-    const CurvePoint<Scalar> point(curve, [q](int parts) -> const LagrangeBasis<Scalar>& {
-      return curved_formulas::basis_at<Scalar, points>(parts, q);
-    });
-    at_[q] = point.at;
-    normal_[q] = Vector(point.tangent.y(), -point.tangent.x());
     set_test(q);
+    Eigen::Matrix2<Scalar> frame = Eigen::Matrix2<Scalar>::Identity();
+    if (has_law)
+      frame = CurvePoint<Scalar>(curve, [q](int parts) -> const LagrangeBasis<Scalar>& {
+                return curved_formulas::basis_at<Scalar, points>(parts, q);
+              }).frame;
     density_[q].resize(2, 2 * count);
     OfPoint along(2, 2 * count);  // B_j of x and of y
     for (int j = 0; j < count; ++j) {
       const Scalar B = bernstein_polynomial(degree, j, xi(q));
       along.middleCols(2 * j, 2) = B * Eigen::Matrix2<Scalar>::Identity();
       density_[q].middleCols(2 * j, 2) =
-          Scalar(count) * B * (has_law ? point.frame.lazyProduct(fixed[j]).eval() : point.frame);
+          Scalar(count) * B * (has_law ? frame.lazyProduct(fixed[j]).eval() : frame);
     }
     pairing += weight(q) * (has_law ? test_[q] : along).transpose().lazyProduct(density_[q]);
   }
@@ -146,12 +175,12 @@ void CurvedSide<Scalar>::set_test(int q) {
 }
 
 template <typename Scalar>
-const Scalar& CurvedSide<Scalar>::xi(int q) {
+const Scalar& CurvedThird<Scalar>::xi(int q) {
   return curved_formulas::GaussPoints<Scalar, points>::get().at[q];
 }
 
 template <typename Scalar>
-const Scalar& CurvedSide<Scalar>::weight(int q) {
+const Scalar& CurvedThird<Scalar>::weight(int q) {
   return curved_formulas::GaussPoints<Scalar, points>::get().weight[q];
 }
 
@@ -186,8 +215,8 @@ typename CurvedSide<Scalar>::Vector CurvedSide<Scalar>::density(
 }
 
 template <typename Scalar>
-Eigen::VectorX<Scalar> CurvedSide<Scalar>::bernstein(const Vector& centroid, int q,
-                                                     const Scalar& rho) const {
+Eigen::VectorX<Scalar> CurvedThird<Scalar>::bernstein(const Vector& centroid, int q,
+                                                      const Scalar& rho) const {
   const auto cross = [](const Vector& u, const Vector& v) { return u.x() * v.y() - u.y() * v.x(); };
   const Scalar whole = cross(b_ - a_, centroid - a_);
   const Scalar first = rho * cross(b_ - at_[q], centroid - at_[q]) / whole,
@@ -201,7 +230,7 @@ typename CurvedSide<Scalar>::Matrix CurvedSide<Scalar>::stress_forces(
   const int count = bernstein_count(degree_);
   Matrix moments = Matrix::Zero(2 * (degree_ + 1), 3 * count);
   for (int q = 0; q < points; ++q) {
-    const Eigen::VectorX<Scalar> value = bernstein(centroid, q, Scalar(1));
+    const Eigen::VectorX<Scalar> value = this->bernstein(centroid, q, Scalar(1));
     const Vector n = weight(q) * normal_[q];
     Eigen::Matrix<Scalar, 2, 3> to_traction;
     to_traction << n.x(), 0, n.y(), 0, n.y(), n.x();
@@ -212,20 +241,21 @@ typename CurvedSide<Scalar>::Matrix CurvedSide<Scalar>::stress_forces(
 }
 
 template <typename Scalar>
-typename CurvedSide<Scalar>::Layer CurvedSide<Scalar>::layer(const Vector& centroid, int q,
-                                                             int l) const {
-  const auto& across = curved_formulas::GaussPoints<Scalar, layers>::get();
+typename CurvedThird<Scalar>::Layer CurvedThird<Scalar>::layer(const Vector& centroid, int q, int l,
+                                                               int layers) const {
+  const auto& across = curved_formulas::rule_across<Scalar, max_layers>(layers);
   const Scalar& rho = across.at[l];
   return {rho, rho * across.weight[l] * weight(q) * (at_[q] - centroid).dot(normal_[q])};
 }
 
 template <typename Scalar>
-typename CurvedSide<Scalar>::Matrix CurvedSide<Scalar>::mass_root(const Vector& centroid) const {
+typename CurvedThird<Scalar>::Matrix CurvedThird<Scalar>::mass_root(const Vector& centroid) const {
   using std::sqrt;
+  const int layers = degree_ + 1;
   Matrix rows(points * layers, bernstein_count(degree_));
   for (int q = 0; q < points; ++q)
     for (int l = 0; l < layers; ++l) {
-      const auto [rho, area] = layer(centroid, q, l);
+      const auto [rho, area] = layer(centroid, q, l, layers);
       rows.row(q * layers + l) = sqrt(area) * bernstein(centroid, q, rho).transpose();
     }
   return GramRoot<Scalar>(std::move(rows)).R();

@@ -60,20 +60,47 @@ struct CurvePoint {
   Eigen::Matrix2<Scalar> frame;
 };
 
+// The third of a triangle between a curve and V4.
 template <typename Scalar>
-class CurvedSide {
+class CurvedThird {
  public:
   using Vector = Eigen::Vector2<Scalar>;
   using Matrix = Eigen::MatrixX<Scalar>;
-  static constexpr int points = 15, layers = 7;  // along ξ and ρ
+  static constexpr int points = 15, max_layers = 7;  // along ξ and ρ
 
   // degree: k.
-  CurvedSide(const SideCurve& curve, int degree);
+  CurvedThird(const SideCurve& curve, int degree);
 
   const Vector& at(int q) const { return at_[q]; }
   const Vector& normal(int q) const { return normal_[q]; }  // N
   static const Scalar& xi(int q);
   static const Scalar& weight(int q);
+
+  // Points across the third, by a rule of so many: ρ, and the area that a point stands for, mm². A
+  // product of two polynomials of degree k needs k + 1.
+  struct Layer {
+    Scalar rho, area;
+  };
+  Layer layer(const Vector& centroid, int q, int l, int layers = max_layers) const;
+  // All B_i of the third, at V4 + ρ (x(ξ_q) − V4).
+  Eigen::VectorX<Scalar> bernstein(const Vector& centroid, int q, const Scalar& rho) const;
+  // W with |W c|² = ∫ p² over the third, mm², p = Σ c_i B_i; upper triangular.
+  Matrix mass_root(const Vector& centroid) const;
+
+ protected:
+  int degree_;
+  Vector a_, b_;
+  std::array<Vector, points> at_, normal_;
+};
+
+template <typename Scalar>
+class CurvedSide : public CurvedThird<Scalar> {
+ public:
+  using typename CurvedThird<Scalar>::Vector, typename CurvedThird<Scalar>::Matrix;
+  using CurvedThird<Scalar>::points, CurvedThird<Scalar>::xi, CurvedThird<Scalar>::weight,
+      CurvedThird<Scalar>::at, CurvedThird<Scalar>::normal;
+
+  CurvedSide(const SideCurve& curve, int degree);
 
   // F of a density at the points, columns, times dξ: k + 1 columns.
   Eigen::Matrix2X<Scalar> forces(const Eigen::Matrix2X<Scalar>& density) const;
@@ -91,15 +118,6 @@ class CurvedSide {
   // F of the stresses B_i xx, B_i yy, B_i xy of the third: rows as F by columns, columns 3 i + 0,
   // 1, 2.
   Matrix stress_forces(const Vector& centroid) const;
-  // W with |W c|² = ∫ p² over the third, mm², p = Σ c_i B_i; upper triangular.
-  Matrix mass_root(const Vector& centroid) const;
-  // Points across the third: ρ, and the area that a point stands for, mm².
-  struct Layer {
-    Scalar rho, area;
-  };
-  Layer layer(const Vector& centroid, int q, int l) const;
-  // All B_i of the third, at V4 + ρ (x(ξ_q) − V4).
-  Eigen::VectorX<Scalar> bernstein(const Vector& centroid, int q, const Scalar& rho) const;
 
  private:
   using OfPoint = Eigen::Matrix<Scalar, 2, Eigen::Dynamic, Eigen::ColMajor, 2,
@@ -108,9 +126,8 @@ class CurvedSide {
   void set_test(int q);
   Eigen::VectorX<Scalar> tested(const Eigen::Matrix2X<Scalar>& field) const;  // m
 
-  int degree_;
-  Vector a_, b_;
-  std::array<Vector, points> at_, normal_;
+  using CurvedThird<Scalar>::degree_, CurvedThird<Scalar>::a_, CurvedThird<Scalar>::b_,
+      CurvedThird<Scalar>::at_, CurvedThird<Scalar>::normal_;
   std::array<OfPoint, points> test_;     // 2(k + 1) columns T_i: m_i = ∫ T_i·q dξ
   std::array<OfPoint, points> density_;  // q = density F
   Eigen::PartialPivLU<Matrix> pairing_;  // P
@@ -119,6 +136,8 @@ class CurvedSide {
 
 extern template struct CurvePoint<double>;
 extern template struct CurvePoint<Wide>;
+extern template class CurvedThird<double>;
+extern template class CurvedThird<Wide>;
 extern template class CurvedSide<double>;
 extern template class CurvedSide<Wide>;
 

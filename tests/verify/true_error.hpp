@@ -49,7 +49,7 @@ inline double true_error(const Problem& problem, const StressField& stress,
           {curves[third].is_straight() ? std::span(chord) : curves[third].points_mm, {}, {}}, k);
       const auto own = stress[static_cast<std::size_t>(t)].middleCols(n * third, n);
       for (int q = 0; q < Side::points; ++q)
-        for (int l = 0; l < Side::layers; ++l) {
+        for (int l = 0; l < Side::max_layers; ++l) {
           const auto [rho, area] = side.layer(centroid, q, l);
           const Eigen::Vector3d truth = exact(centroid + rho * (side.at(q) - centroid)),
                                 off = own * side.bernstein(centroid, q, rho) - truth;
