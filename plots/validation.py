@@ -5,12 +5,13 @@
 
 FOLDER has validation.json, or validation.json.gz. In DIR (default: FOLDER/figures): published.png, how far every
 value of the method that adapted the mesh is off, next to what is allowed; published_profiles.png, each profile and
-its closed form. --page: in FILE, between <!-- published cases --> and <!-- end of table -->, a table of these values,
-and their sources; between <!-- published by method --> and <!-- end of table --> one of all methods and programs.
+its closed form. --page: in FILE, between <!-- published cases --> and <!-- end of table -->, a row per case with its
+largest deviation, and the sources; between <!-- published by method --> and <!-- end of table --> a row per method.
 """
 import argparse
 import json
 import re
+from collections import Counter
 from functools import partial
 from pathlib import Path
 
@@ -25,7 +26,7 @@ import drawing
 from command import replace_all, run, text_writer
 from drawing import COLOURS, DPI, PAGE_WIDTH, write_small_png
 from records import RecordsError, text_of
-from words import plain, seconds
+from words import plain
 
 STYLE = drawing.STYLE | {"axes.titlesize": 8, "axes.spines.top": False, "axes.spines.right": False}
 OURS = dict(color="#0072B2", linestyle="", marker="o", markersize=3)
@@ -123,25 +124,28 @@ def percent(x: float) -> str:
     return f"{100 * x:.2g}\u00a0%" if x >= LEAST or x == 0 else f"below {100 * LEAST:g}\u00a0%"
 
 
-def number(x: float | None) -> str:
-    return "–" if x is None else f"{x:.5g}"
+def worst(case: dict) -> dict:
+    """The value of the adapting method that is farthest off; of those equal to rounding, the first."""
+    known = [row for row in rows_of([case]) if row["deviation"] is not None]
+    return max(known, key=lambda row: max(abs(row["deviation"]), LEAST), default={})
 
 
-def values(row: dict, key: str) -> str:
-    return f"{len(row[key])} points" if len(row[key]) > 1 else number(row[key][0] if row[key] else None)
+def values(row: dict) -> str:
+    if len(row["published"]) > 1:
+        return f"{len(row['published'])} points"
+    return f"{row['published'][0]:.5g} {row['unit']}".rstrip() + f", ours {row['ours'][0]:.5g}"
 
 
 def table_of_cases(cases: list[dict]) -> str:
-    lines = ["| case | quantity | published | ours | off by |", "|---|---|---|---|---|"]
-    rows = rows_of(cases)
-    for k, row in enumerate(rows):
-        is_first = k == 0 or rows[k - 1]["case"] != row["case"]
-        half_width = row["off"] or 0
-        is_wide = len(row["ours"]) == 1 and half_width > LEAST * abs(row["ours"][0])
-        ours = values(row, "ours") + f" ± {half_width:.2g}" * bool(is_wide)
-        off = "–" if row["deviation"] is None else percent(abs(row["deviation"]))
-        lines.append(f"| {row['title'] + ' `' + row['case'] + '`' if is_first else ''} | {row['name']} | "
-                     f"{values(row, 'published')} {row['unit']} | {ours} | {off} |")
+    """Of each case how many values agree, and the one with the largest deviation."""
+    lines = ["| case | values | largest deviation | of | allowed, because |", "|---|---|---|---|---|"]
+    for case in cases:
+        row = worst(case)
+        found = [percent(abs(row["deviation"])),
+                 f"{row['name']}: {values(row)}" if abs(row["deviation"]) >= LEAST else "all",
+                 f"{100 * row['allowed']:.2g}\u00a0%: {row['because']}"] if row else ["–"] * 3
+        cells = [f"{case['title']} `{case['case']}`", str(len(case["quantities"])), *found]
+        lines.append(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |")
     of_source: dict[str, list[str]] = {}
     for case in cases:
         of_source.setdefault(case["source"], []).append(f"`{case['case']}`")
@@ -176,44 +180,31 @@ def agrees(answer: dict) -> bool:
     return all(value["verdict"] == "agrees" for value in answer["values"] if value["deviation"] is not None)
 
 
-def cell(answer: dict | None, reasons: Reasons) -> str:
-    """Total error, largest deviation, time; of a value beyond what is allowed in italics. 0 %: to rounding."""
-    def rounded(x: float) -> str:
-        return percent(x) if x >= LEAST else "0\u00a0%"
+def median(numbers: list[float]) -> str:
+    return f"{np.median(numbers):.2g}" if numbers else "–"
 
-    if answer is None:
-        return ""
-    if not is_answered(answer):
-        return f"*{reasons.letter(answer)}*"
-    off = deviations(answer)
-    error = "–" if answer["error_total"] is None else rounded(answer["error_total"])
-    words = ", ".join([error, rounded(max(off)) if off else "–", seconds(answer["time_s"])])
-    return words if agrees(answer) else f"*{words}*"
+
+def row_of_method(method: str, cases: list[dict], reasons: Reasons) -> str:
+    answers = [(answer, case["answers"][0]) for case in cases for answer in case["answers"]
+               if answer["method"] == method]
+    solved = [(answer, adapting) for answer, adapting in answers if is_answered(answer)]
+    known = [answer for answer, _ in solved if deviations(answer)]
+    unsolved = Counter(reasons.letter(answer) for answer, _ in answers if not is_answered(answer))
+    return " | ".join([f"| {method.removeprefix(PROGRAM)}", str(len(solved)), f"{sum(map(agrees, known))} of {len(known)}",
+                       median([100 * max(deviations(answer)) for answer in known]),
+                       median([100 * answer["error_total"] for answer, _ in solved if answer["error_total"] is not None]),
+                       median([answer["time_s"] / adapting["time_s"] for answer, adapting in solved if adapting["time_s"]]),
+                       ", ".join(f"{count} *{letter}*" for letter, count in unsolved.items()) + " |"])
 
 
 def table_of_methods(cases: list[dict]) -> str:
-    methods = sorted({answer["method"] for case in cases for answer in case["answers"][1:]})
-    by_case = {case["case"]: {answer["method"]: answer for answer in case["answers"]} for case in cases}
-    own = {case["case"]: case["answers"][0] for case in cases}
-    lines = ["| | solved | with values | all of these agree | time over the adapting method's, median |",
-             "|---|---|---|---|---|"]
-    for method in methods:
-        solved = {name: answers[method] for name, answers in by_case.items()
-                  if method in answers and is_answered(answers[method])}
-        known = [answer for answer in solved.values() if deviations(answer)]
-        ratio = [answer["time_s"] / own[name]["time_s"] for name, answer in solved.items() if own[name]["time_s"]]
-        lines.append(f"| {method.removeprefix(PROGRAM)} | {len(solved)} | {len(known)} | {sum(map(agrees, known))} | "
-                     f"{f'{np.median(ratio):.2g}' if ratio else '–'} |")
+    """How many cases each method solves, how far off, at what cost, and why not the others."""
+    methods = sorted({answer["method"] for case in cases for answer in case["answers"][1:]},
+                     key=lambda method: (method.startswith(PROGRAM), method))
     reasons = Reasons()
-    for group in ([m for m in methods if not m.startswith(PROGRAM)], [m for m in methods if m.startswith(PROGRAM)]):
-        if not group:
-            continue
-        lines += ["", "| case | adapted by | " + " | ".join(m.removeprefix(PROGRAM) for m in group) + " |",
-                  "|---|---|" + "---|" * len(group)]
-        for name, answers in by_case.items():
-            lines.append(f"| `{name}` | {own[name]['method']}: {cell(own[name], reasons)} | " +
-                         " | ".join(cell(answers.get(method), reasons) for method in group) + " |")
-    return "\n".join([*lines, "", *reasons.lines()]) + "\n"
+    rows = [row_of_method(method, cases, reasons) for method in methods]
+    return "\n".join(["| method or program | solved | all values agree | deviation, % | total error, % | time ratio | not solved |",
+                      "|---|---|---|---|---|---|---|", *rows, "", *reasons.lines()]) + "\n"
 
 
 def page_of(text: str, cases: list[dict], path: Path) -> str:

@@ -28,7 +28,7 @@ def answer(method: str, *values: dict, **more: object) -> dict:
 CASES = [
     {"case": "disc", "title": "A disc", "source": "Hertz", "quantities": [quantity("pressure", [100]),
                                                                           quantity("profile", [1, 2, 4])],
-     "answers": [answer("HYBRID:k=2", value(0.005, [100.5], 0.2), value(0.005, [1, 2, 4.02], 0.1)),
+     "answers": [answer("HYBRID:k=2", value(0.005, [100.5], 0.2), value(0.006, [1, 2, 4.024], 0.1)),
                  answer("P2", value(None, []), value(0.02, [1, 2, 4.08]), time_s=0.008),
                  answer("EXTERNAL:peer", value(None, []), value(-0.001, [1, 2, 3.996]), time_s=0.4)]},
     {"case": "slope", "title": "A slope", "source": "Hertz", "quantities": [quantity("shear", [5])],
@@ -48,25 +48,32 @@ class ValidationTest(FolderTest):
         status, err, page = self.make(CASES, PAGE)
         self.assertEqual((status, err), (0, ""))
         lines = page.splitlines()
-        self.assertEqual(lines[2:7], [
-            "| case | quantity | published | ours | off by |", "|---|---|---|---|---|",
-            "| A disc `disc` | pressure | 100 MPa | 100.5 ± 0.2 | 0.5\u00a0% |",
-            "|  | profile | 3 points MPa | 3 points | 0.5\u00a0% |",
-            "| A slope `slope` | shear | 5 MPa | – | – |"])
+        self.assertEqual(lines[2:6], [
+            "| case | values | largest deviation | of | allowed, because |", "|---|---|---|---|---|",
+            "| A disc `disc` | 2 | 0.6\u00a0% | profile: 3 points | 1\u00a0%: exact |",
+            "| A slope `slope` | 1 | – | – | – |"])
         self.assertEqual((lines[0], lines[-1]), ("a", "c"))
         self.assertIn("- `disc`, `slope`: Hertz", lines)
         for name in ("published", "published_profiles"):
             self.assertTrue((self.figures / f"{name}.png").read_bytes().startswith(b"\x89PNG"))
 
-    def test_a_method_has_its_counts_its_cells_and_its_reasons(self) -> None:
+    def test_a_method_has_counts_medians_and_reasons(self) -> None:
         lines = self.make(CASES, PAGE)[2].splitlines()
-        self.assertIn("| P2 | 1 | 1 | 0 | 2 |", lines)
-        self.assertIn("| peer | 1 | 1 | 1 | 1e+02 |", lines)
-        own = "HYBRID:k=2: 0.2\u00a0%, 0.5\u00a0%, 4\u00a0ms"
-        self.assertIn(f"| `disc` | {own} | *0.2\u00a0%, 2\u00a0%, 8\u00a0ms* |", lines)
-        self.assertIn(f"| `disc` | {own} | 0.2\u00a0%, 0.1\u00a0%, 0.4\u00a0s |", lines)
-        self.assertIn("| `slope` | HYBRID:k=3: 0.2\u00a0%, –, 4\u00a0ms | *a* |", lines)
+        self.assertIn("| P2 | 1 | 0 of 1 | 2 | 0.2 | 2 | 1 *a* |", lines)
+        self.assertIn("| peer | 1 | 1 of 1 | 0.1 | 0.2 | 1e+02 |  |", lines)
         self.assertIn("- *a*: bodies of … parts", lines)
+
+    def test_a_case_shows_its_largest_deviation(self) -> None:
+        def cases(first: float, second: float) -> list[dict]:
+            quantities = [quantity("pressure", [100]), quantity("|shear|", [5])]
+            return [CASES[0] | {"quantities": quantities,
+                                "answers": [answer("P2", value(first, [100]), value(second, [5.02]))]}]
+
+        for (first, second), shown in (((0.002, -0.004), "0.4\u00a0% | \\|shear\\|: 5 MPa, ours 5.02"),
+                                       ((0.005, -0.004), "0.5\u00a0% | pressure: 100 MPa, ours 100"),
+                                       ((1e-9, 2e-9), "below 0.0001\u00a0% | all")):
+            self.assertIn(f"| A disc `disc` | 2 | {shown} | 1\u00a0%: exact |",
+                          self.make(cases(first, second), PAGE)[2].splitlines())
 
     def test_a_profile_is_drawn_over_the_coordinate_that_changes(self) -> None:
         for points, where, name in (([[1, 0], [3, 0]], [1, 3], "x, mm"), ([[0, 2], [0, -1]], [2, -1], "y, mm"),
