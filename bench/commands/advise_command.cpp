@@ -29,12 +29,10 @@ namespace airybench {
 namespace {
 
 constexpr const char* advise_footer = R"(
-The mesh is adapted until the error is met; on what it becomes, methods are measured, as far as the budget goes.
-Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, beyond that
-measurement scaled by n log n; its error by a power law, which is optimistic. Earlier records are taken to be of this machine's
-speed after it. On a body with curved sides also HYBRID with stresses that follow them, of the degree that
---degree=auto takes, on a mesh adapted by it. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv,
-records, meshes, fields.
+The mesh is adapted until the error is met; then methods are measured on it, as far as the budget allows. Uniform refinement is
+measured on the given mesh and on it refined once; beyond that time is scaled by n log n, and the error by a power law, which is
+optimistic. On a body with curved sides HYBRID of the degree of --degree=auto is measured, too, on a mesh that it adapted. The fastest
+row that meets the error is run again, with its fields. In OUT: advice.csv, records, meshes, fields.
 
 Exit status  0  a measured row meets the error
              1  none does
@@ -64,10 +62,10 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   app.footer(advise_footer);
   add_one_body(app, options.run);
   app.add_option("--error", error, "total error, relative: 1%")->required();
-  app.add_option("--method", options.run.methods, "to compare, by names or globs")
+  app.add_option("--method", options.run.methods, "methods to compare: names or globs")
       ->capture_default_str();
   add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
-             "seconds that one solve may take");
+             "limit of one solve in seconds");
   add_number(
       app, "--budget", Least::above_zero, max_limit, budget_s,
       "seconds for measuring methods; leaves out those that do not fit in by earlier records");

@@ -31,17 +31,17 @@ Options parse_check(int argc, const char* const* argv, std::filesystem::path& de
   Options options;
   options.limits.repetitions = 1;
   CLI::App app(
-      "Runs another program on small cases that each find one mistake, and says which mistake "
-      "wrong answers look like.",
+      "Runs another program on small cases that each find one mistake, and names the mistake "
+      "that its answers look like.",
       "{bench} check");
   app.footer(check_footer);
-  app.add_option("DECLARATION", declaration, "of the program: a JSON file")->required();
+  app.add_option("DECLARATION", declaration, "JSON file that declares the program")->required();
   add_number(app, "--target-error", Least::above_zero, max_limit, options.run.cases.target_error,
              "largest error of an answer that passes");
   add_whole(app, "--threads", 1, max_threads, options.run.cases.threads,
             "of BLAS, and {threads} of the program");
   add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
-             "seconds that one solve may take");
+             "limit of one solve in seconds");
   add_memory_limit(app, options.limits);
   parse_command_line(app, argc, argv);
   options.run.study = study_named("check").value();

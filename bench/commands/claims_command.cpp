@@ -72,7 +72,7 @@ int claims_command(int argc, const char* const* argv) {
                "{bench} claims");
   app.footer(claims_footer);
   app.add_option("DIR", folder, "folder with records.jsonl")->required();
-  app.add_option("--stop", stop, "records of which stop of the iterative methods")
+  app.add_option("--stop", stop, "use the records with this stop of the iterative methods")
       ->check(CLI::IsMember({"target", "paper"}))
       ->capture_default_str();
   app.add_option("--out", out, "also write the table to this file, *.md");

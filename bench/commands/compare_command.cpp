@@ -81,15 +81,16 @@ int compare_command(int argc, const char* const* argv) {
   std::string a, b, names;
   std::filesystem::path out;
   double minimum_effect_percent = 3;
-  CLI::App app("Two programs' runs of the same cases: which have become slower or faster.",
+  CLI::App app("Compares runs of two programs, case by case: faster, slower or not separated.",
                "{bench} compare");
   app.footer(compare_footer);
-  app.add_option("A", a, "folders with records.jsonl, a run each, before: DIR[,DIR...]")
+  app.add_option("A", a,
+                 "folders with records.jsonl of the first program, a run each: DIR[,DIR...]")
       ->required();
-  app.add_option("B", b, "and after")->required();
+  app.add_option("B", b, "folders of the second program")->required();
   add_number(app, "--minimum-effect", Least::zero, 1000, minimum_effect_percent,
              "per cent: smaller changes of a time are no change");
-  app.add_option("--names", names, "A,B: what they are, for the first line");
+  app.add_option("--names", names, "A,B: names of the programs for the first line");
   app.add_option("--out", out, "also write the comparison to this file, *.md or *.json");
   parse_command_line(app, argc, argv);
   if (out.empty()) require_standard_output();

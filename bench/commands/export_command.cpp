@@ -102,13 +102,13 @@ int export_command(int argc, const char* const* argv) {
   CLI::App app("The records of a run in the format of another tool.", "{bench} export");
   app.footer(export_footer);
   app.add_option("DIR", folder, "folder with records.jsonl, or for csv with nights/")->required();
-  app.add_option("--format", format, "of the formats below")
+  app.add_option("--format", format, "one of the formats below")
       ->required()
       ->check(CLI::IsMember(formats));
   app.add_option("--mesh", meshes, "names or globs; default: all of the records");
   app.add_option("--method", methods, "names or globs; default: all of the records");
   app.add_option("--columns", columns,
-                 "of markdown and latex: names, all; default: eight that have values");
+                 "columns of markdown and latex: names, or all; default: eight");
   app.add_option("--out", out, "file to write; default: standard output");
   parse_command_line(app, argc, argv);
   if (!columns.empty() && format != "markdown" && format != "latex")

@@ -35,8 +35,8 @@ int export_problem_command(int argc, const char* const* argv) {
   CLI::App app("A problem's matrices, for your own solvers.", "{bench} export-problem");
   app.footer(export_problem_footer);
   add_one_body(app, options.run);
-  app.add_option("--format", format, "of the formats below")->required();
-  app.add_option("--out", options.output.folder, "folder to write, which is not there yet or empty")
+  app.add_option("--format", format, "one of the formats below")->required();
+  app.add_option("--out", options.output.folder, "folder to write, new or empty")
       ->required()
       ->default_str("");
   parse_command_line(app, argc, argv);

@@ -22,11 +22,11 @@ namespace {
 
 constexpr const char* merge_footer = R"(
 The records must be of the same kind of machine (CPU model and number), of the same sources, compiler,
-libraries, threads, tolerances and limits, and of one plan; each case may be there once, and every case of the plan must be
-there. An error names what differs; then nothing is written.
+libraries, threads, tolerances and limits, and of one plan, with every case of the plan once. An error names the difference; then
+nothing is written.
 
-With --runs the folders are whole runs of different plans, which may differ in limits and repetitions, too; no case
-may be there twice, and every plan must be complete.
+With --runs the folders are whole runs of different plans, which may differ in limits and repetitions; no case may occur
+twice, and every plan must be complete.
 
 Meshes that lie in a run's folder (of --adapt, of models) are copied; fields and figures are not.
 
@@ -50,8 +50,8 @@ MergeOptions parse_merge(int argc, const char* const* argv) {
                "{bench} merge");
   app.footer(merge_footer);
   app.add_option("DIR", options.folders, "folders with records.jsonl")->required();
-  app.add_option("--out", options.out, "folder of the whole")->required();
-  app.add_flag("--incomplete", options.incomplete, "also when cases of a plan are missing");
+  app.add_option("--out", options.out, "folder to write")->required();
+  app.add_flag("--incomplete", options.incomplete, "accept plans with missing cases");
   app.add_flag("--runs", options.runs, "the folders are different runs, not shards of one");
   parse_command_line(app, argc, argv);
   return options;

@@ -11,14 +11,13 @@ namespace airybench {
 int new_external_command(int argc, const char* const* argv) {
   NewExternal asked;
   CLI::App app(
-      "Writes a program that runs as it is, NAME.py or NAME.cpp, and NAME.json, its declaration. "
-      "It "
-      "solves the contact law, or in C++ a body in displacements.",
+      "Writes a program that runs, NAME.py or NAME.cpp, and its declaration NAME.json. It solves "
+      "the contact law, or in C++ a body in displacements.",
       "{bench} new-external");
   app.footer(
       "\nReplace its contact_forces() by your method (docs/your-program.md).\n\n"
       "Example\n  {bench} new-external mine; {bench} check mine.json\n");
-  app.add_option("NAME", asked.stem, "of the program; a folder may stand before it")->required();
+  app.add_option("NAME", asked.stem, "name of the program, with a folder if wanted")->required();
   app.add_option("--language", asked.language, "python, c++")
       ->check(CLI::IsMember({"python", "c++"}))
       ->capture_default_str();

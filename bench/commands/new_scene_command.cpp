@@ -11,8 +11,8 @@ namespace airybench {
 namespace {
 
 constexpr const char* new_scene_footer = R"(
-It has the model's groups, a wall that each contact face just touches, the face of an arc, pairs of faces that
-press on each other, and values to fill in; of an input deck (.inp) what that prescribes.
+The scene has the model's groups, a wall that each contact face just touches, the faces of arcs, pairs of faces that
+touch, and values to fill in; for an input deck (.inp) it has what the deck prescribes.
 
 Exit status  0  written
              2  wrong usage, a model that cannot be read, or a file that is there already: one line on standard

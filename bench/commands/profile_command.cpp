@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* profile_footer = R"(
 Runs the adaptive loop several times in one process and prints medians by level and phase. "first" is the first
-run, which also touches its memory and its tables for the first time, as every loop of `bench --adapt` does.
+run, which also sets up memory and tables, as every loop of `bench --adapt` does.
 
 Exit status  0  the loop ended
              1  it had no level
@@ -44,7 +44,7 @@ Options parse_profile(int argc, const char* const* argv) {
   app.footer(profile_footer);
   add_part(app, options.run);
   app.add_option("--error", error, "total error, relative")->capture_default_str();
-  app.add_option("--degree", degree, "of the stresses: 1 to 4, auto")->capture_default_str();
+  app.add_option("--degree", degree, "degree of the stresses: 1 to 4, auto")->capture_default_str();
   add_whole(app, "--repetitions", 1, 1000, options.limits.repetitions, "runs of the loop");
   app.add_option("--out", options.output.folder, "folder of converted models")
       ->capture_default_str();

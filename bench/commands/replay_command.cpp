@@ -37,12 +37,12 @@ struct ReplayOptions {
 
 ReplayOptions parse_replay(int argc, const char* const* argv) {
   ReplayOptions options;
-  CLI::App app("Runs one recorded case again, as it was run then.", "{bench} replay");
+  CLI::App app("Runs one recorded case again, with its settings.", "{bench} replay");
   app.footer(replay_footer);
-  app.add_option("RECORD", options.record, "which")->required();
+  app.add_option("RECORD", options.record, "record of the case")->required();
   app.add_option("--out", options.out, "folder of the new record")->capture_default_str();
   app.add_flag("--other-program", options.other_program,
-               "although program, machine or settings are not the record's");
+               "run it even if program, machine or settings differ from the record's");
   parse_command_line(app, argc, argv);
   const FirstItem folder = first_item(options.record, ':');
   options.folder = folder.item;

@@ -25,12 +25,12 @@ namespace airybench {
 namespace {
 
 constexpr const char* solve_footer = R"(
-MODEL is a mesh or a Gmsh model; an input deck (.inp) brings its own scene. The mesh is adapted until the total error, relative in
-energy, is met; then until the largest stress, where it is bounded, is known to twice that, or five finer meshes or one without gain end it; with
-:force or :pressure until the interval of F_n or of the largest pressure is as narrow, ± relative, of all faces together and of
+MODEL is a mesh or a Gmsh model; an input deck (.inp) contains its scene. The mesh is adapted to the total error (relative, in energy), then
+until the largest stress, where it is bounded, is known to twice that error, a finer mesh gains less than a tenth, or five more meshes
+are done. With :force or :pressure half the interval of F_n or of the largest pressure must be that narrow, of all faces together and of
 each that carries more than 1 % of the load.
 In OUT: the picture figures/part.png, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), meshes and
-records; with --html all that is printed and the picture in part.html, one page that stands alone.
+records; with --html also part.html, one self-contained page with the picture and all that is printed.
 
 Exit status  0  the error is met
              1  it is not, or the case is not ok
@@ -61,17 +61,17 @@ Options parse_solve(int argc, const char* const* argv, PartGoal& goal, bool& htm
   options.output.folder = "results/solve";
   options.run.cases.picture = options.run.needs_scene = true;
   std::string error = "1%", degree = "auto";
-  CLI::App app("A part's forces, pressure, stress and displacement, and how far they may be off.",
+  CLI::App app("Forces, pressure, stress and displacement of a part, each with its possible error.",
                "{bench} solve");
   app.footer(solve_footer);
   add_part(app, options.run);
   app.add_option("--error", error, "total error, relative: 1%, 1%:force, 1%:pressure")
       ->capture_default_str();
-  app.add_option("--degree", degree, "of the stresses: 2 to 4, auto")->capture_default_str();
+  app.add_option("--degree", degree, "degree of the stresses: 2 to 4, auto")->capture_default_str();
   add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
-             "seconds that one solve may take");
+             "limit of one solve in seconds");
   add_memory_limit(app, options.limits);
-  app.add_flag("--html", html, "also a page: OUT/part.html");
+  app.add_flag("--html", html, "also write a page, OUT/part.html");
   app.add_option("--out", options.output.folder, "folder of the output files")
       ->capture_default_str();
   parse_command_line(app, argc, argv);

@@ -32,9 +32,9 @@ namespace airybench {
 namespace {
 
 constexpr const char* validate_footer = R"(
-Each case is adapted to its total error by HYBRID. Printed are the published values, ours with what they may be off by, the deviation,
-and what is allowed and why. --method and --external run more methods on the adapted meshes; of displacement methods there are the
-values at points. Without EXTERNAL:NAME in --method all programs of --external run.
+HYBRID adapts the mesh of each case to a total error. The table has the published values, ours with their intervals, the deviation, and
+what is allowed and why. --method and --external run more methods on the adapted meshes; displacement methods have values at points only.
+Without EXTERNAL:NAME in --method all programs of --external run.
 In OUT: records, fields, meshes, and validation.json with the table.
 
 Exit status  0  every value of the method that adapted the mesh agrees
@@ -294,14 +294,14 @@ struct AskedCases {
 AskedCases parse(int argc, const char* const* argv) {
   AskedCases asked;
   asked.options.output.folder = "results/validate";
-  CLI::App app("Published values and ours: closed forms, benchmarks of others.",
+  CLI::App app("Compares airybench with published closed forms and benchmarks.",
                "{bench} validate");
   app.footer(validate_footer);
-  app.add_option("CASE", asked.cases, "names or globs, separated by commas; all");
+  app.add_option("CASE", asked.cases, "names or globs, separated by commas; default: all");
   app.add_option("--method", asked.methods, "more methods, on the adapted meshes");
   add_files(app, "--external", asked.externals, "declarations of other programs");
   add_number(app, "--timeout", Least::above_zero, max_limit, asked.options.limits.timeout_s,
-             "seconds that one solve may take");
+             "limit of one solve in seconds");
   app.add_option("--out", asked.options.output.folder, "folder of the output files")
       ->capture_default_str();
   parse_command_line(app, argc, argv);
