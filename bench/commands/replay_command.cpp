@@ -214,7 +214,7 @@ int replay_command(int argc, const char* const* argv) {
         fmt::format("--out: {} (allowed: another folder than the record's)", asked.out.string()));
   if (record.scene_definition.is_null() && record.scene != Scene().name)
     throw FileError(
-        fmt::format("{}: does not say what its scene {} is", asked.record, record.scene));
+        fmt::format("{}: the record lacks the definition of scene {}", asked.record, record.scene));
   const std::string differs = differences(recorded, context, Sameness::same_program);
   if (!differs.empty() && !asked.other_program)
     throw FileError(

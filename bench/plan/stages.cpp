@@ -34,17 +34,18 @@ std::string why_skipped(const PosedProblem& posed, const Method& method) {
     return "the problem has a body: HYBRID condenses it, and solves the contact law";
   const bool external = !method.program.empty();
   if (!body->later_steps.empty() && !method.takes_load_steps)
-    return "a path of load steps: its declaration does not say load_steps";
+    return "a path of load steps: the declaration lacks load_steps";
   if (external && method.condenses_contact() && mesh_sizes(body->mesh).contact_edges == 0)
     return "no contact boundary: nothing is left for the program";
   if (external && !method.condenses_contact() && !body->loads.thermal.empty())
-    return "thermal strain, which no file for programs has";
+    return "thermal strain: files for other programs do not contain it";
   if (!body->opposite.empty() && !method.joins_bodies)
-    return external ? "bodies in contact with each other: its declaration does not say joins_bodies"
-                    : "bodies in contact with each other: its active sets hold edges at walls only";
+    return external
+               ? "bodies in contact with each other: the declaration lacks joins_bodies"
+               : "bodies in contact with each other: active sets on K hold edges at walls only";
   if (has_free_motions(*body) && (external || !method.condenses_contact()))
-    return "a body that contact or points alone hold: its motion is found by methods of ours that "
-           "condense on the contact points";
+    return "a body held by contact or points alone: only methods of airybench that condense on the "
+           "contact points find its motion";
   if (method.unknowns == Unknowns::displacements && !body->opposite.empty())
     return why_no_control_points(*body);
   if (method.unknowns != Unknowns::airy_function) return "";

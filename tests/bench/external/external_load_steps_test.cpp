@@ -21,7 +21,7 @@ TEST_F(ExternalLoadSteps, AreHandedToProgramsThatReadTheCondensedProblem) {
   for (const char* name : {"airy", "body"}) {
     EXPECT_EQ(records.at(name)["status"], "skipped");
     EXPECT_EQ(records.at(name)["status_reason"],
-              "a path of load steps: its declaration does not say load_steps");
+              "a path of load steps: the declaration lacks load_steps");
   }
   const Json& mine = records.at("mine");
   EXPECT_EQ(mine["status"], "ok") << mine["status_reason"];
