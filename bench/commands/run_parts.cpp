@@ -54,7 +54,7 @@ void note_unused_deck(const RunSettings& run) {
 void note_out_of_reach(const PosedScene& posed) {
   const Mesh& mesh = posed.body()->mesh;
   if (const int free = edges_out_of_reach(*posed.body()); free > 0)
-    std::cerr << fmt::format("note: {}/{}: {} of {} contact edges meet {}, and are free\n",
+    std::cerr << fmt::format("note: {}/{}: {} of {} contact edges are free: {} within reach\n",
                              mesh.name, posed.scene_name, free,
                              free + mesh_sizes(mesh).contact_edges,
                              posed.body()->opposite.empty() ? "no wall" : "no other body or wall");
@@ -64,7 +64,7 @@ void note_matching(const PosedScene& posed) {
   const Problem::Matching& matching = posed.body()->matching;
   if (matching.inserted + matching.moved > 0)
     std::cerr << fmt::format(
-        "note: {}/{}: faces that press on each other are matched: {} vertices put in, {} moved, "
+        "note: {}/{}: faces in contact are matched: {} vertices inserted, {} moved, "
         "smallest angle {:.1f}°\n",
         posed.body()->mesh.name, posed.scene_name, matching.inserted, matching.moved,
         mesh_quality(posed.body()->mesh).smallest_angle_deg);
@@ -81,15 +81,16 @@ void note_no_wall(const Mesh& mesh, const Scene& scene) {
     if (values == scene.boundary.end() || !values->second.contact.wall) without.insert(label);
   }
   if (!without.empty())
-    std::cerr << fmt::format("note: {}/{}: {}: no wall: the wall lies on the edges\n", mesh.name,
-                             scene.name, fmt::join(without, ", "));
+    std::cerr << fmt::format("note: {}/{}: {}: no wall given, so the wall lies on the edges\n",
+                             mesh.name, scene.name, fmt::join(without, ", "));
 }
 
 void note_polygons(const Mesh& mesh, const Scene& scene) {
   for (const auto& [label, degrees] : corners_of_curves(mesh, scene))
     std::cerr << fmt::format(
-        "note: {}/{}: {}: a polygon with {} corners of up to {:.2g} degrees, each with its peak of "
-        "stress (a curve: give its \"face\")\n",
+        "note: {}/{}: {}: a polygon with {} corners of up to {:.2g} degrees, each a peak of stress "
+        "(for "
+        "a curve give its \"face\")\n",
         mesh.name, scene.name, label, degrees.size(), std::ranges::max(degrees));
 }
 

@@ -166,19 +166,18 @@ std::vector<std::string> machine_warnings(const Context& environment, int repeti
   std::vector<std::string> lines;
   if (!governor.empty() && governor != "performance")
     lines.push_back(fmt::format(
-        "the CPU's frequency follows its load (governor {}, steady with performance)", governor));
+        "the CPU's frequency follows the load (governor {}; steady: performance)", governor));
   if (const double most = max_load_per_cpu * static_cast<double>(cpus); cpus > 0 && load > most)
     lines.push_back(
         fmt::format("other work on the machine: load {:.2f} on {} CPUs (quiet: at most {:.1f})",
                     load, cpus, most));
   if (cpus > 0 && threads > cpus)
-    lines.push_back(fmt::format("--threads={}: more than the {} CPUs: they wait for one another",
-                                threads, cpus));
+    lines.push_back(fmt::format(
+        "--threads={}: more than the {} CPUs, so threads wait for one another", threads, cpus));
   if (noise > max_noise)
-    lines.push_back(
-        fmt::format("times scatter by {:.1f} % in a loop that is always the same (quiet: at most "
-                    "{:.0f} %)",
-                    100 * noise, 100 * max_noise));
+    lines.push_back(fmt::format(
+        "machine noise {:.1f} %: scatter of a fixed loop's times (quiet: at most {:.0f} %)",
+        100 * noise, 100 * max_noise));
   if (repetitions < fewest_to_tell_apart)
     lines.push_back(fmt::format(
         "--repetitions={}: too few for a sound interval, and for two methods to differ at "
@@ -188,8 +187,7 @@ std::vector<std::string> machine_warnings(const Context& environment, int repeti
     lines.push_back("the heap is not counted: this build has no heap probe");
   if (!build_type.empty() && build_type != "Release")
     lines.push_back(fmt::format("build type {}: times are those of Release only", build_type));
-  if (known("git_dirty") == "yes")
-    lines.push_back("the sources have changes that are in no git revision");
+  if (known("git_dirty") == "yes") lines.push_back("the sources have uncommitted changes");
   return lines;
 }
 

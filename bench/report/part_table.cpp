@@ -168,11 +168,11 @@ Rows steps_table(const Record& record) {
 
 std::string error_line(const Record& r) {
   if (!r.error_total)
-    return fmt::format("its total error is not known{}{}",
-                       r.no_discretisation_error.empty() ? "" : ": ", r.no_discretisation_error);
+    return fmt::format("total error unknown{}{}", r.no_discretisation_error.empty() ? "" : ": ",
+                       r.no_discretisation_error);
   return fmt::format(
-      "total error {:.2g} % in energy: of the mesh, its curves and the solver; not in it: small "
-      "strains, Coulomb's law, what is prescribed",
+      "total error {:.2g} % in energy: mesh, curves and solver; not included: large strains, other "
+      "laws of friction, errors of loads and supports",
       100 * *r.error_total);
 }
 

@@ -100,12 +100,12 @@ TEST(MachineWarnings, EachCauseHasItsLine) {
         {"threads", "5", "--threads=5: more than the 4 CPUs"},
         {"heap_probe", "off", "heap is not counted"},
         {"build_type", "Debug", "build type Debug"},
-        {"git_dirty", "yes", "no git revision"}}) {
+        {"git_dirty", "yes", "uncommitted changes"}}) {
     Context machine = quiet_machine;
     machine[key] = value;
     expect_line(machine_warnings(machine, 5, steady_s), part);
   }
-  expect_line(machine_warnings(quiet_machine, 5, {1, 1.12, 0.88}), "scatter by 12.0 %");
+  expect_line(machine_warnings(quiet_machine, 5, {1, 1.12, 0.88}), "machine noise 12.0 %");
   expect_line(machine_warnings(quiet_machine, 4, steady_s), "--repetitions=4");
 }
 

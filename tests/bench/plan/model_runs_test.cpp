@@ -282,7 +282,8 @@ Physical Curve("contact:sole") = {2, 3};
 TEST_F(ModelRuns, ABodyWithoutAWallIsNoted) {
   const testing::CommandResult result = run(part + "--dry-run");
   EXPECT_EQ(result.code, 0);
-  EXPECT_NE(result.err.find("note: part/default: contact: no wall: the wall lies on the edges\n"),
+  EXPECT_NE(result.err.find(
+                "note: part/default: contact: no wall given, so the wall lies on the edges\n"),
             std::string::npos)
       << result.err;
   EXPECT_EQ(run("--mesh=Mesh0 --dry-run").err.find("no wall"), std::string::npos);

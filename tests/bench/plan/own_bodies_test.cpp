@@ -75,7 +75,7 @@ TEST_P(OwnBodies, FacesOfDifferentBodiesAreProposedInPairs) {
       "export AIRYBENCH_CACHE_DIR=cache; ");
   EXPECT_EQ(bench_.records().at(0)["status"], "skipped") << cg.err;
   EXPECT_TRUE(testing::contains(cg.out, "active sets on K hold edges at walls only"));
-  EXPECT_TRUE(testing::contains(cg.err, "faces that press on each other are matched: "));
+  EXPECT_TRUE(testing::contains(cg.err, "faces in contact are matched: "));
 }
 
 // Its middle and upper block are held by contact alone.
