@@ -198,13 +198,32 @@ def row_of_method(method: str, cases: list[dict], reasons: Reasons) -> str:
 
 
 def table_of_methods(cases: list[dict]) -> str:
-    """How many cases each method solves, how far off, at what cost, and why not the others."""
+    """How many cases each method solves, how far off, at what cost, and why not the others; and each deviation."""
     methods = sorted({answer["method"] for case in cases for answer in case["answers"][1:]},
                      key=lambda method: (method.startswith(PROGRAM), method))
     reasons = Reasons()
     rows = [row_of_method(method, cases, reasons) for method in methods]
+    names = [method.removeprefix(PROGRAM) for method in methods]
     return "\n".join(["| method or program | solved | all values agree | deviation, % | total error, % | time ratio | not solved |",
-                      "|---|---|---|---|---|---|---|", *rows, "", *reasons.lines()]) + "\n"
+                      "|---|---|---|---|---|---|---|", *rows, "",
+                      "Largest deviation of each case in %; in italics beyond what is allowed, or a letter of the reasons below.", "",
+                      f"| case | {' | '.join(names)} |", "|---" * (len(names) + 1) + "|",
+                      *(row_of_deviations(case, methods, reasons) for case in cases), "", *reasons.lines()]) + "\n"
+
+
+def row_of_deviations(case: dict, methods: list[str], reasons: Reasons) -> str:
+    answers = {answer["method"]: answer for answer in case["answers"]}
+
+    def cell(method: str) -> str:
+        answer = answers.get(method)
+        if answer is None:
+            return ""
+        if not is_answered(answer):
+            return f"*{reasons.letter(answer)}*"
+        off = deviations(answer)
+        text = f"{100 * max(off):.2g}" if off and max(off) >= LEAST else "0" if off else "–"
+        return text if agrees(answer) else f"*{text}*"
+    return f"| `{case['case']}` | {' | '.join(map(cell, methods))} |"
 
 
 def page_of(text: str, cases: list[dict], path: Path) -> str:
