@@ -165,7 +165,8 @@ void add_part(CLI::App& app, RunSettings& run) {
   app.add_option("MODEL", run.meshes, "a mesh, a model or an input deck")
       ->required()
       ->default_str("");
-  app.add_option("SCENE", run.scenes, "its materials, supports, loads and contact")->expected(0, 1);
+  app.add_option("SCENE", run.scenes, "a scene file: materials, supports, loads and contact")
+      ->expected(0, 1);
   add_whole(app, "--steps", 1, max_load_steps, run.equal_steps, "number of equal load steps");
   add_model_settings(app, run.model_settings);
 }

@@ -85,10 +85,11 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
       "GOALS[,levels=last][,by=METHOD][,marking=SHARE]: refine where the error is, until "
       "1% or 50000 unknowns; several goals in turn (docs/adaptive-meshes.md)");
   app.option_defaults()->group("By which methods");
-  app.add_option("--degree", texts.degree,
-                 fmt::format("1 to {}, or auto: of HYBRID's stresses, on the levels of --adapt and "
-                             "in cases (auto: 3 for goals below 0.1%, else 2)",
-                             highest_degree));
+  app.add_option(
+      "--degree", texts.degree,
+      fmt::format("degree of HYBRID's stresses on the levels of --adapt and in cases: 1 to {}, or "
+                  "auto (3 for goals below 0.1%, else 2)",
+                  highest_degree));
   app.add_option(
       "--method", options.run.methods,
       "names or globs; default: the paper's, for your own bodies HYBRID and P2, next to other "
@@ -105,8 +106,9 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
             "meshes and methods of the paper's figure, and ours")
       ->excludes(app.get_option("--mesh"))
       ->excludes(app.get_option("--method"));
-  app.add_option("--study", texts.study,
-                 "of those below; error:0.01,0.1 also finds the least error within these seconds")
+  app.add_option(
+         "--study", texts.study,
+         "a study listed below; error:0.01,0.1 also finds the least error within these seconds")
       ->excludes(app.get_option("--figure"));
 }
 
@@ -149,7 +151,7 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--out", options.output.folder, "folder of the output files")
       ->capture_default_str();
   app.add_option("--columns", texts.columns,
-                 "of the printed table: all, or their names; default: the eight that say most");
+                 "columns of the printed table: all, or names; default: eight");
   app.add_flag("--append", options.output.append,
                "keep the records in the folder, except those of the cases run");
   app.add_flag(
