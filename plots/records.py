@@ -289,8 +289,9 @@ def cells_of(path: Path) -> list[list[str]]:
 
 
 def read_lines(path: Path) -> list[object]:
+    """Without the start of a record, which a run that was ended leaves."""
     return [json_of(line.removesuffix("\n"), f"{path}:{number}")
-            for number, line in enumerate(lines_of(path), 1)]
+            for number, line in enumerate(lines_of(path), 1) if line.endswith("\n")]
 
 
 def text_of(path: Path) -> str:

@@ -118,6 +118,9 @@ class ReaderTest(FolderTest):
             made_up.write_lines(self.lines, [good, good | {"n_phi": 1, "time_s": extreme}])
             self.assert_refused(f"{self.lines}:2: time_s is {str(extreme)[:3]}",
                                 "expected 0 or 1e-250 to 1e+250 in size", file="records.jsonl")
+        text = json.dumps(good) + "\n"
+        self.lines.write_text(text + text[:40], encoding="utf-8")  # of a run that was ended while it wrote
+        self.assertEqual(len(records.read(self.lines)), 1)
         self.lines.write_text('[1]\n', encoding="utf-8")
         self.assert_refused(f"{self.lines}:1: [1], expected an object", file="records.jsonl")
         self.lines.write_text('{"time_s": NaN}\n', encoding="utf-8")
