@@ -28,6 +28,7 @@ from drawing import DPI, COLUMN_WIDTH, PAGE_WIDTH, STYLE, Sheet, for_papers, log
 from figure.contact import LOOKS
 from figure.profiles import fractions, jumps, ratios
 from records import RecordsError, is_without_body, read_lines
+from selection import show_seconds
 from words import plain
 
 PRECISIONS = (1e-4, 1e-8)
@@ -64,18 +65,11 @@ def table_of(records: list[dict]) -> pd.DataFrame:
                         columns=["precision", "solver", "factor_of_best", "share_solved"])
 
 
-def shown(seconds: float) -> str:
-    for unit, size in (("s", 1.0), ("ms", 1e-3)):
-        if seconds >= size:
-            return f"{seconds / size:.3g} {unit}"
-    return f"{seconds / 1e-6:.3g} µs"
-
-
 def cell_of(record: dict, precision: float) -> str:
     """Its time, or how far it got."""
     error = record.get("siconos_error")
     if record.get("time_s") and error is not None and error <= precision:
-        return shown(record["time_s"])
+        return show_seconds(record["time_s"])
     status = record["status"].replace("_", " ")
     return status if error is None else f"{status}, {error:.0e}"
 

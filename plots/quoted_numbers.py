@@ -40,7 +40,7 @@ import pandas as pd
 
 from command import replace_all, run, text_writer
 from records import KEYS, RecordsError, Row, read, rows_of
-from selection import grouped
+from selection import grouped, show_seconds
 from selection import value_of as value_of_row
 from words import percent, short
 
@@ -243,13 +243,6 @@ def differences_of(quote: Quote, text: str, runs: Runs) -> Iterator[Difference]:
             yield difference(0, f"{right:.6g}", line)
 
 
-def seconds(value: float) -> str:
-    for unit, size in (("µs", 1e-6), ("ms", 1e-3)):
-        if value < 1000 * size:
-            return f"{value / size:.3g} {unit}"
-    return f"{value:.3g} s"
-
-
 OF_THE_MESH = ("error_total", "error_discretisation")  # in per cent
 HEADS = ("case", "n_phi", "time", "±", "heap", "error stress", "error force", "status")
 
@@ -257,8 +250,8 @@ HEADS = ("case", "n_phi", "time", "±", "heap", "error stress", "error force", "
 def cells_of(row: Row) -> tuple[str, ...]:
     def number(value: float | None, show: str) -> str:
         return "-" if value is None else format(value, show)
-    return (row.case_name, str(row.n_phi), seconds(row.time_s),
-            "n=1" if row.repetitions == 1 else seconds(row.time_mad_s or 0),
+    return (row.case_name, str(row.n_phi), show_seconds(row.time_s),
+            "n=1" if row.repetitions == 1 else show_seconds(row.time_mad_s or 0),
             number(value_of_row(row, "peak_heap_bytes"), ".1f") + " MiB",
             number(row.error_stress, ".1e"), number(row.error_force, ".1e"), row.status)
 
@@ -268,7 +261,7 @@ def in_words(key: str, value: float | None) -> str:
         return "—"
     if key.endswith("_bytes"):
         return f"{value:.3g} MiB"
-    return seconds(value) if key.endswith("_s") else percent(value) if key in OF_THE_MESH else short(value)
+    return show_seconds(value) if key.endswith("_s") else percent(value) if key in OF_THE_MESH else short(value)
 
 
 def table_by_mesh(rows: list[Row], keys: list[str]) -> str:

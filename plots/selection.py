@@ -158,6 +158,11 @@ def value_of(row: Row, key: str) -> float | None:
     return value / 2**20 if value and key in ("peak_heap_bytes", "peak_rss_bytes") else value
 
 
+def show_seconds(time_s: float) -> str:
+    """12.3 ms: as bench prints it."""
+    return f"{time_s * 1e6:.3g} µs" if time_s < 1e-3 else f"{time_s * 1e3:.3g} ms" if time_s < 1 else f"{time_s:.3g} s"
+
+
 def line_of(rows: list[Row], x: str, y: str) -> tuple[list[float], list[float]]:
     return [value_of(row, x) for row in rows], [value_of(row, y) for row in rows]
 
