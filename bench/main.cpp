@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
       const auto found =
           std::ranges::find(commands, std::string_view(now[1]), &airybench::Command::name);
       if (found != commands.end()) return found->run(count - 1, now.data() + 1);
+      airybench::refuse_former_command(now[1]);
       refuse_misspelt_command(now[1]);
     }
     has_resume = true;

@@ -37,7 +37,7 @@ install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-co
         RENAME airybench-meshgen)
 install(DIRECTORY meshgen/meshes bench/scenes bench/external/templates validation results docs/bodies DESTINATION ${data}
         PATTERN "figures" EXCLUDE PATTERN "__pycache__" EXCLUDE)
-install(DIRECTORY plots DESTINATION ${data}  # meshgen --show
+install(DIRECTORY plots DESTINATION ${data}  # meshgen --show, claims.py
         FILES_MATCHING PATTERN "*.py" PATTERN "*.json"
         PATTERN "__pycache__" EXCLUDE PATTERN "page" EXCLUDE PATTERN "figure" EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

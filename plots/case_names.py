@@ -16,7 +16,11 @@ def case_of_older(record: Mapping) -> str:
     if record["knob_value"] is not None:
         value = repr(float(record["knob_value"])).removesuffix(".0")
         name += f"/{record['knob'].replace(' ', '_')}={value}"
-    is_paper = record["stop"] == "paper"
-    implied = "gauss-seidel" if is_paper or record["knob"] == "contact sweeps" else "newton"
-    solver = record["contact_solver"] or implied
-    return name + "/stop=paper" * is_paper + f"/contact={solver}" * (solver != implied)
+    solver = record["contact_solver"] or implied_solver(record)
+    return (name + "/stop=paper" * (record["stop"] == "paper")
+            + f"/contact={solver}" * (solver != implied_solver(record)))
+
+
+def implied_solver(record: Mapping) -> str:
+    """Of the contact law, by its stop and what is varied."""
+    return "gauss-seidel" if record["stop"] == "paper" or record["knob"] == "contact sweeps" else "newton"

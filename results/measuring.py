@@ -168,7 +168,7 @@ def join(shop: Workshop, part: Part) -> None:
     shutil.rmtree(whole / "fields", ignore_errors=True)
     if part.claims:
         for stop, name in (("target", "claims.md"), ("paper", "claims_paper_stop.md")):
-            output_of(shop.bench, "claims", part.name, f"--stop={stop}", f"--out={whole / name}",
+            output_of(sys.executable, PROJECT / "plots/claims.py", part.name, f"--stop={stop}", f"--out={whole / name}",
                       cwd=whole.parent)  # it names the folder as it was given
 
 

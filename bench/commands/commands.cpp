@@ -14,7 +14,6 @@ constexpr Command commands[] = {
     {"new-external", "NAME", "a template of an external solver, and its declaration",
      new_external_command},
     {"check", "PROGRAM", "the mistakes of another program, found by small cases", check_command},
-    {"claims", "DIR", "the paper's sentences, checked against a results folder", claims_command},
     {"compare", "A,… B,…", "runs of two programs, case by case: faster, slower, or undecided",
      compare_command},
     {"track", "", "a run that is added to a history, and its regressions", track_command},

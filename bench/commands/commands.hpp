@@ -23,7 +23,6 @@ std::string overview();
 
 int advise_command(int argc, const char* const* argv);
 int check_command(int argc, const char* const* argv);
-int claims_command(int argc, const char* const* argv);
 int compare_command(int argc, const char* const* argv);
 int explain_command(int argc, const char* const* argv);
 int export_command(int argc, const char* const* argv);

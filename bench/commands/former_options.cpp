@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "support/called_as.hpp"
+#include "support/data_folder.hpp"
 #include "support/errors.hpp"
 #include "support/shortened.hpp"
 
@@ -44,6 +45,13 @@ void refuse_replaced(int argc, const char* const* argv) {
     if (const auto found = replaced.find(word.substr(0, word.find('='))); found != replaced.end())
       throw UsageError(fmt::format("{}: is now {}", found->first, found->second));
   }
+}
+
+void refuse_former_command(std::string_view word) {
+  if (word == "claims")
+    throw UsageError(fmt::format("claims: is now {} claims DIR (without {}: python3 {} DIR)",
+                                 called_as("run"), called_as("run"),
+                                 shell_word((data_folder("plots") / "claims.py").string())));
 }
 
 std::vector<std::string> with_command(std::vector<std::string> words) {

@@ -39,6 +39,7 @@ step(${prefix}/bin/airybench --mesh=${meshes} --method=HYBRID --repetitions=1 --
 if(NOT said MATCHES "Mesh0/default/HYBRID[^\n]* ok")
   message(FATAL_ERROR "airybench: ${said}")
 endif()
+step(${PYTHON} ${prefix}/share/airybench/plots/claims.py results)
 set(module ${prefix}/lib/python3/dist-packages)
 if(EXISTS ${module})
   step(${CMAKE_COMMAND} -E env PYTHONPATH=${module} ${PYTHON} -c

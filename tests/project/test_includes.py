@@ -96,7 +96,7 @@ class IncludesTest(unittest.TestCase):
         self.assertEqual([], wrong)
 
     def test_planted_violations_are_seen(self) -> None:
-        for file, included in (("bench/report/claims.cpp", "solvers/methods.hpp"),
+        for file, included in (("bench/report/compare.cpp", "solvers/methods.hpp"),
                                ("solvers/methods/blind_condensation.cpp", "verify/verifier.hpp"),
                                ("mesh/mesh.cpp", "assembly/problem/problem.hpp"),
                                ("assembly/problem/scene.cpp", "assembly/contact_system.hpp"),

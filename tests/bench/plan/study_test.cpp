@@ -212,7 +212,7 @@ Record point_record(const std::string& study, std::optional<double> tolerance) {
   return record;
 }
 
-TEST(Study, RecordsReplaceTheirOwnKindOnlyAndClaimsPassThemOver) {
+TEST(Study, RecordsReplaceTheirOwnKindOnlyAndHistoriesPassThemOver) {
   const testing::TemporaryFolder scratch;
   const std::filesystem::path folder = scratch / "o", file = folder / "records.jsonl";
   const auto append = [&](const Record& record) {

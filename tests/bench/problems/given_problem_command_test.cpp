@@ -103,8 +103,8 @@ TEST_F(GivenProblemCommand, WrongUseIsRefused) {
 TEST_F(GivenProblemCommand, OtherCommandsTakeItsRecords) {
   ASSERT_EQ(run("").code, 0);
   EXPECT_EQ(run("--resume").code, 0);
-  for (const char* arguments : {"claims o", "compare o o", "merge o --out=merged",
-                                "export o --format=csv", "export o --format=google-benchmark"})
+  for (const char* arguments : {"compare o o", "merge o --out=merged", "export o --format=csv",
+                                "export o --format=google-benchmark"})
     EXPECT_EQ(bench_.run(arguments).code, 0) << arguments << ": " << bench_.content("err.txt");
   bench_.expect_refusal("replay o:1",
                         "o:1: a contact problem of --problem (allowed: cases with a mesh)\n");

@@ -62,7 +62,7 @@ TEST(PackedRecords, AreLimitedInLinesAndInAll) {
   };
   const std::string longest(std::size_t{16} << 20, ' ');
   write(packed(longest + " "));
-  for (const char* command : {"export o --format=csv", "merge o --out=p", "claims o"})
+  for (const char* command : {"export o --format=csv", "merge o --out=p"})
     bench.expect_refusal(
         command, "o/records.jsonl.gz:1: a line longer than 16 MiB (allowed: up to 16 MiB)\n");
   const std::string part = packed(longest + "\n");
@@ -87,8 +87,8 @@ TEST(Records, OfOneLineThatIsHalfWrittenAreNone) {
   const BenchCommand bench;
   std::filesystem::create_directories(bench.path("o"));
   testing::write_text(bench.path("o/records.jsonl"), "{\"mesh\":\"Mes");
-  for (const char* command : {"export o --format=csv", "merge o --out=p", "claims o", "compare o o",
-                              "track --history=h --from=o"})
+  for (const char* command :
+       {"export o --format=csv", "merge o --out=p", "compare o o", "track --history=h --from=o"})
     bench.expect_refusal(command,
                          "o/records.jsonl: only the start of a record (of a run "
                          "that was ended; --resume goes on)\n");
@@ -105,7 +105,6 @@ TEST(PackedRecords, AreReadByEveryCommandAndNotWrittenTo) {
   ASSERT_EQ(std::system(("gzip '" + bench.path("o/records.jsonl").string() + "'").c_str()), 0);
   EXPECT_EQ(read_records(records_file_in(bench.path("o"))).size(), 2u);
   EXPECT_EQ(csv_of("o"), before);
-  EXPECT_EQ(bench.run("claims o").code, 0);
   EXPECT_EQ(bench.run("merge o --out=joined").code, 0);
   EXPECT_EQ(csv_of("joined"), before);
   for (const char* how : {"", " --append", " --resume"}) {

@@ -1,4 +1,4 @@
-// The statistics behind comparisons, claims and predictions, against published tables and figures
+// The statistics behind comparisons and predictions, against published tables and figures
 // worked out by hand.
 #include <gtest/gtest.h>
 
@@ -10,9 +10,7 @@
 
 #include "bench/records/robust.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/report/claims.hpp"
 #include "bench/report/statistics.hpp"
-#include "solvers/methods.hpp"
 
 namespace airybench::statistics_test {
 namespace {
@@ -205,62 +203,6 @@ TEST(Bootstrap, CoversTheMedian) {
     covered += interval.low <= 0 && 0 <= interval.high;
   }
   EXPECT_GT(covered, trials * 0.88);
-}
-
-TEST(Verdicts, AnIntervalThatStraddlesTheThresholdDecidesNothing) {
-  using enum ClaimVerdict;
-  const Interval above_one = {1, infinity}, within_a_factor = {1 / 1.5, 1.5};
-  EXPECT_EQ(is_within({1.1, 1.3}, above_one), reproduced);
-  EXPECT_EQ(is_within({0.9, 1.3}, above_one), undecided);
-  EXPECT_EQ(is_within({0.9, 1}, above_one), not_reproduced);
-  EXPECT_EQ(is_within({3, infinity}, above_one), reproduced);
-  EXPECT_EQ(is_within({0.7, 1.4}, within_a_factor), reproduced);
-  EXPECT_EQ(is_within({0.7, 1.6}, within_a_factor), undecided);
-  EXPECT_EQ(is_within({0.3, 0.5}, within_a_factor), not_reproduced);
-  EXPECT_EQ(is_within({1.6, infinity}, within_a_factor), not_reproduced);
-  EXPECT_EQ(is_within({0, 1.5}, {-infinity, 1.5}), reproduced);
-}
-
-TEST(Verdicts, BootstrapOfTheRatioOfMedians) {
-  const CaseTime slow = {2, {2, 2.1, 1.9, 2.2, 1.8}}, fast = {1, {1, 1.05, 0.95, 1, 1}};
-  const Ratio ratio = ratio_of(slow, fast);
-  EXPECT_DOUBLE_EQ(ratio.figure, 2);
-  EXPECT_GE(ratio.interval.low, 1.8 / 1.05);
-  EXPECT_LE(ratio.interval.high, 2.2 / 0.95);
-  EXPECT_LT(ratio.interval.low, 1.95);
-  EXPECT_GT(ratio.interval.high, 2.05);
-  const Ratio single = ratio_of({3, {3}}, {2, {2}});
-  EXPECT_EQ(single.interval.low, 1.5);
-  EXPECT_EQ(single.interval.high, 1.5);
-}
-
-TEST(Verdicts, TimedOutCasesEnterWithTheTimeTheySpent) {
-  const CaseTime stopped = {100, {}, 10}, measured = {2, {2}};
-  const Ratio above = ratio_of(stopped, measured), below = ratio_of(measured, stopped);
-  EXPECT_TRUE(above.estimated);
-  EXPECT_EQ(above.figure, 50);
-  EXPECT_EQ(above.interval.low, 5);
-  EXPECT_EQ(above.interval.high, infinity);
-  EXPECT_EQ(below.interval.low, 0);
-  EXPECT_EQ(below.interval.high, 0.2);
-  const Ratio unknown = ratio_of(stopped, stopped);
-  EXPECT_EQ(unknown.interval.low, 0);
-  EXPECT_EQ(unknown.interval.high, infinity);
-}
-
-TEST(Verdicts, SpreadIsGeometricMeanAndRange) {
-  const Ratio all = spread({{2, {1.9, 2.1}}, {8, {7, 9}}});
-  EXPECT_DOUBLE_EQ(all.figure, 4);
-  EXPECT_EQ(all.interval.low, 2);
-  EXPECT_EQ(all.interval.high, 8);
-  const Ratio with_timeout = spread({{2, {1.9, 2.1}}, {8, {1, infinity}, true}});
-  EXPECT_EQ(with_timeout.interval.low, 1);
-  EXPECT_EQ(with_timeout.interval.high, infinity);
-}
-
-TEST(Verdicts, ThePapersNamesAreTheMethods) {
-  for (const auto& [of_paper, general] : paper_names)
-    EXPECT_EQ(select_methods(of_paper).front().identity(), general);
 }
 
 }  // namespace

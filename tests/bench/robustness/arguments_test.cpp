@@ -42,6 +42,7 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
   for (const auto& [arguments, named] : {
            Refusal{"--repetitions=010", "--repetitions: 010 (allowed: a whole number from 1"},
            {"--interleave --study=scaling", "--interleave: not with --study=scaling"},
+           {"claims o", "claims: is now ./run claims DIR (without ./run: python3 "},
            {"--tuning-budget=9", "--tuning-budget: is now --timeout=SECONDS,tuning=SECONDS"},
            {"--timeout=9,tuning=0", "--timeout: tuning: 0 (allowed: a number above 0"},
            {"--timeout=9,others=0", "--timeout: others: 0 (allowed: a number above 0"},
@@ -184,7 +185,6 @@ TEST(Records, ThatAreCorruptAreRefusedByEveryCommand) {
   std::filesystem::create_directories(bench.path("bad"));
   const std::vector<std::string> commands = {
       "compare good bad",
-      "claims bad",
       "export bad --format=csv",
       "merge bad --out=m",
       "replay bad:1 --out=r",

@@ -84,7 +84,7 @@ TEST(Readers, OfAFolderThatTheyCannotEnterSaySo) {
   const BenchCommand bench;
   testing::copy_program_to(bench.path(""));
   ASSERT_EQ(run_as_user(bench, hybrid + "--out=o && chmod 644 o"), 0) << bench.content("err.txt");
-  for (const char* command : {"export o --format=csv", "claims o", "compare o o", "merge o --out=p",
+  for (const char* command : {"export o --format=csv", "compare o o", "merge o --out=p",
                               "replay o:1 --out=p", "track --history=h --from=o"}) {
     EXPECT_EQ(run_as_user(bench, std::string("bin/bench ") + command), 2) << command;
     EXPECT_EQ(bench.content("err.txt"), "bench: o/records.jsonl: Permission denied\n") << command;

@@ -56,7 +56,6 @@ TEST(HostileScenes, PipesAndFoldersAreNoFiles) {
   expect_refused(bench, "--mesh=Mesh0 --scene=pipe.json", "pipe.json: is no regular file");
   expect_refused(bench, "--mesh=Mesh0 --scene=folder.json", "folder.json: a folder, not a file");
   expect_refused(bench, "--mesh=pipe.msh", "pipe.msh: is no regular file");
-  EXPECT_EQ(bench.run("claims .", patience).code, 2);
   EXPECT_EQ(bench.run("compare . .", patience).code, 2);
   EXPECT_EQ(bench.run("--mesh=Mesh0 --method=HYBRID --out=. --append", patience).code, 2);
 }

@@ -48,7 +48,7 @@ TEST(ClosedStreams, AreToldWhereTheResultGoes) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(two).code, 0);
   for (const char* arguments :
-       {"export o --format=csv", "claims o", "compare o o", "list", "--mesh=Mesh0 --dry-run"}) {
+       {"export o --format=csv", "compare o o", "list", "--mesh=Mesh0 --dry-run"}) {
     EXPECT_EQ(redirected(bench, arguments, ">&- 2>err.txt"), 2) << arguments;
     EXPECT_TRUE(testing::contains(bench.content("err.txt"), "bench: standard output: is closed"))
         << arguments;
@@ -60,7 +60,7 @@ TEST(FullStreams, AreTold) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(two).code, 0);
   for (const char* arguments :
-       {"list", "--help", "--version", "compare o o", "claims o", "export o --format=csv",
+       {"list", "--help", "--version", "compare o o", "export o --format=csv",
         "export o --format=latex", "merge o --out=m", "track --history=h --from=o",
         "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=p",
         "--mesh=Mesh0 --method=HYBRID --dry-run", "explain --mesh=Mesh0 --method=HYBRID",
@@ -133,7 +133,7 @@ TEST(Messages, ShowNamesEscapedAndCutWhereverTheyGo) {
   const std::string hostile = "M\u202Eod\uFEFF\x1b[31m\nbench: ok", name = std::string(5000, 'n');
   for (const char* option :
        {"--mesh=", "--scene=", "--method=", "--external=", "--problem=", "--filter=(",
-        "--study=", "--role=", "--", "claims ", "merge ", "replay ", "export --format=", "solve ",
+        "--study=", "--role=", "--", "merge ", "replay ", "export --format=", "solve ",
         "advise --mesh=", "--repetitions=", "--timeout=", "--shard=", "--stop="}) {
     const CommandResult said = bench.run(option + ("'" + hostile + "'"));
     EXPECT_EQ(said.code, 2) << option;
