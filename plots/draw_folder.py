@@ -8,7 +8,7 @@ import threading
 from pathlib import Path
 
 import command
-from records import RecordsError, is_without_body, read_lines
+from records import RecordsError, is_without_body, points_of, read_lines
 
 RECORDS = ("records.jsonl", "records.jsonl.gz", "results.csv")
 
@@ -30,7 +30,7 @@ def drawing_programs(folder: Path, only: str | None, animate: bool) -> list[str]
     lines = folder / "records.jsonl"
     records = list(read_lines(lines)) if lines.exists() and not only else []
     without_body = [record for record in records if is_without_body(record)]
-    has_profiles = any(record.get("points", record.get("study")) == "contact" for record in without_body)
+    has_profiles = any(points_of(record) == "contact" for record in without_body)
     if has_profiles:
         programs.append("contact_profiles.py")
     if any((folder / name).exists() for name in RECORDS) and not (has_profiles and len(without_body) == len(records)):

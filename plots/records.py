@@ -8,7 +8,7 @@ import json
 import math
 import re
 import zlib
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, make_dataclass, replace
 from itertools import count
 from pathlib import Path
@@ -35,7 +35,7 @@ STATUSES, OUTCOMES, STOPS = map(words_of, ("status", "outcome", "stop"))
 CONTACT_SOLVERS, OWNERS = map(words_of, ("contact_solver", "memory_by_owner"))
 COMPLETED = STATUSES[:3]  # has_answer() of support/status.hpp
 VERIFIED = ("", "ok", "other_solution")  # outcomes of an ok case that count as solved
-# Older records have the study's name alone.
+# Records of 2.0 have no points; their studies had these names.
 POINTS_OF_OLDER = {"error": "accuracy", "contact": "contact", "scaling": "threads"}
 
 
@@ -135,13 +135,12 @@ NEEDED = (*FILLED, "preconditioner", "status_reason", "time_s", "tuning_s", "pea
 KEYS: dict[str, Kind] = {
     name: replace(kind, may_be_empty=name not in FILLED) for name, field in FIELDS.items()
     if (kind := KINDS.get(field["kind"]) or (one_of(words_of(name)) if words_of(name) else None))}
-OF_STUDY = {  # also required in rows of a study, by its points or its name
-    ("points", "accuracy"): ("outcome", "knob", "knob_value", "error_stress",
+OF_STUDY = {  # also required in rows of a study, by its points; "": of scenes with groups
+    "accuracy": ("outcome", "knob", "knob_value", "error_stress",
                              "error_discretisation", "error_total"),
-    ("points", "contact"): ("outcome", "contact_solver"),
-    ("study", "stability"): ("outcome", "scene_group", "error_stress"),
+    "contact": ("outcome", "contact_solver"),
+    "": ("outcome", "error_stress"),
 }
-NEVER_EMPTY = ("outcome", "scene_group")  # in a study that needs them
 OF_COMPLETED = ("time_s", "n_phi", "repetitions")
 
 
@@ -205,6 +204,11 @@ def checked(items: list[dict], kinds: dict[str, Kind], needed: Collection[str],
     return pd.DataFrame(columns, dtype=object)
 
 
+def points_of(item: Mapping) -> str:
+    """Of a record as it is in its file."""
+    return item["points"] or "" if "points" in item else POINTS_OF_OLDER.get(item.get("study"), "")
+
+
 def is_without_body(item: object) -> bool:
     """A contact problem of bench --problem."""
     return (isinstance(item, dict) and item.get("scene") == "fclib"
@@ -228,15 +232,14 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
 
     table = checked(items, KEYS, needed, place, text=header is not None)
     table.insert(0, "line", lines)
-    table["points"] = table.points.where(table.points != "",
-                                         table.study.map(POINTS_OF_OLDER).fillna(""))
-    for (column, word), names in OF_STUDY.items():
-        for k in table.index[table[column] == word]:
+    table["points"] = list(map(points_of, items))
+    for points, names in OF_STUDY.items():
+        for k in table.index[(table.points == points) & (table.study != "") & ((table.scene_group != "") | (points != ""))]:
             for name in names:
                 if header and name not in header:
                     raise RecordsError(f"{path}:1: no column {name}; the {table.study[k]} study of "
                                        f"line {table.line[k]} needs it")
-                if name in NEVER_EMPTY and not table[name][k]:
+                if name == "outcome" and not table[name][k]:
                     raise RecordsError(f"{place(k)}: {name} is '', expected a value in the study "
                                        f"'{table.study[k]}'")
     for name in OF_COMPLETED:

@@ -54,6 +54,28 @@ def kind_of(row: Row) -> str:
         "refined everywhere" if "+refine" in row.mesh else "as they are"
 
 
+def kinds_of_studies(rows: list[Row]) -> dict[str, str]:
+    """Name of a study -> its kind by what its records have, never by the name; of ordinary runs, too."""
+    return {name: kind_of_study(own) for name, own in grouped(rows, lambda row: row.study).items()}
+
+
+def kind_of_study(rows: list[Row]) -> str:
+    """Its points; load_steps: a number of them in each scene; stability: scenes of groups; adapted meshes; or other."""
+    if not rows[0].study:
+        return ""
+    paths = {(row.scene, row.load_steps) for row in rows if row.load_steps}
+    scenes, counts = map(set, zip(*paths)) if paths else (set(), set())
+    return rows[0].points or ("load_steps" if len(scenes) == len(counts) == len(paths) > 1 else
+                              "stability" if all(row.scene_group for row in rows) else
+                              "adapted" if any(kind_of(row) == "adapted" for row in rows) else "other")
+
+
+def of_kind(rows: list[Row], kind: str) -> list[Row]:
+    """The rows of such studies."""
+    kinds = kinds_of_studies(rows)
+    return [row for row in rows if kinds[row.study] == kind]
+
+
 def adapting(row: Row) -> str:
     """The method that solved the levels of an adapted mesh."""
     degree = LEVEL_OF_DEGREE.search(row.mesh)

@@ -3,7 +3,7 @@ from collections.abc import Iterator
 
 from drawing import Drawing, Sheet, keys, log_limits, log_log
 from records import Row
-from selection import by_mesh, by_method, by_stop, line_of, with_suffix
+from selection import by_mesh, by_method, by_stop, line_of, of_kind, with_suffix
 from words import at_stop, csv_of, plain, threads, unseen
 
 COLUMNS = ("mesh", "method", "load_steps", "status", "time_s", "time_once_s", "time_per_load_s")
@@ -11,7 +11,7 @@ MESHES = 2  # that there is room for
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    study = [row for row in rows if row.study == "load-steps" and row.load_steps]
+    study = [row for row in of_kind(rows, "load_steps") if row.load_steps]
     for stop, run in by_stop(study).items():
         shown = [row for own in list(by_mesh(run).values())[:MESHES] for row in own]
         if len(shown) > 1:

@@ -2,14 +2,15 @@
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import groupby
+from operator import attrgetter
 
 from matplotlib.patches import Rectangle
 
 from drawing import PAGE_WIDTH, SMALLEST_PT, TYPE, Drawing, Sheet, file_name
 from records import OUTCOMES, Row
-from selection import by_mesh, by_stop, compared, grouped, order, with_suffix
+from selection import by_mesh, by_stop, compared, grouped, of_kind, order, with_suffix
 from words import at_stop, csv_of, plain, seconds, short, threads, width_of
 
 ROOM = 12  # methods with a column; the others of a family share one
@@ -31,8 +32,9 @@ MARKS = {
     "machine_fault": ("f", "#DADADA", "black"),
     "skipped": ("–", "#FFFFFF", "0.4"),
 }
-COLUMNS = {"stability": ("scene_group", "scene"),
-           "adapted": ("body", "n_phi", "error_total", "time_s", "peak_heap_bytes")}  # of the table
+# Of the table, of scenes and of adapted meshes.
+OF_SCENES = ("scene_group", "scene")
+OF_MESHES = ("body", "n_phi", "error_total", "time_s", "peak_heap_bytes")
 GOOD = ("ok", "other_solution", "unstressed", "skipped")
 WORDS = {"other_solution": "another solution than the reference's", "unstressed": "no stress, so no relative error",
          "unverified": "reported ok, cannot be verified", "wrong_success": "wrong success: reported ok, but is not",
@@ -40,10 +42,10 @@ WORDS = {"other_solution": "another solution than the reference's", "unstressed"
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    for mesh, study in by_mesh([row for row in rows if row.study == "stability"]).items():
+    for mesh, study in by_mesh(of_kind(rows, "stability")).items():
         for stop, own in by_stop(study).items():
             yield Drawing(with_suffix(file_name("outcomes", mesh), stop), own, draw, table_of)
-    for stop, own in by_stop([row for row in rows if row.study == "adapted"]).items():
+    for stop, own in by_stop(of_kind(rows, "adapted")).items():
         yield Drawing(with_suffix("outcomes_adapted", stop), own, draw, table_of)
 
 
@@ -59,14 +61,20 @@ def digits(row: Row) -> str:
     return str(min(max(math.floor(-math.log10(max(*errors, 1e-17))), 0), 16))
 
 
-def line_of(row: Row) -> tuple[str, str]:
+def has_scenes(rows: list[Row]) -> bool:
+    """Scenes in its lines, or meshes."""
+    return all(row.scene_group for row in rows)
+
+
+def line_key(rows: list[Row]) -> Callable[[Row], tuple[str, str]]:
     """Group and name of the line of cells that a case is in."""
-    return (row.scene_group, row.scene) if row.study == "stability" else (row.body, row.mesh)
+    return attrgetter(*(("scene_group", "scene") if has_scenes(rows) else ("body", "mesh")))
 
 
 def lines_of(rows: list[Row]) -> list[tuple[str, str]]:
     """In the order of groups, then of sizes or of the numbers in a scene's name."""
-    sizes = {line_of(row): row.n_phi if row.study == "adapted" else 0 for row in rows}
+    line_of, of_scenes = line_key(rows), has_scenes(rows)
+    sizes = {line_of(row): 0 if of_scenes else row.n_phi for row in rows}
     return sorted(sizes, key=lambda line: (line[0], sizes[line], NUMBER.split(line[1]),
                                            [float(number) for number in NUMBER.findall(line[1])]))
 
@@ -101,9 +109,9 @@ def cell_of(rows: list[Row], wide: bool) -> tuple[str, str, str]:
 
 
 def table_of(rows: list[Row]) -> str:
-    place = {line: k for k, line in enumerate(lines_of(rows))}
+    place, line_of = {line: k for k, line in enumerate(lines_of(rows))}, line_key(rows)
     return csv_of(sorted(rows, key=lambda row: (place[line_of(row)], order(row))),
-                  "mesh", *COLUMNS[rows[0].study], "method", "outcome",
+                  "mesh", *(OF_SCENES if has_scenes(rows) else OF_MESHES), "method", "outcome",
                   ("digits", lambda row: digits(row) if outcome_of(row) == "ok" else None),
                   "error_stress", "error_force", "condition_estimate")
 
@@ -111,14 +119,14 @@ def table_of(rows: list[Row]) -> str:
 def draw(rows: list[Row], width: float) -> Sheet:
     """As wide as a page at least: a table cannot be narrower than its words."""
     lines, columns = lines_of(rows), columns_of(rows)
-    wide = rows[0].study == "adapted"
+    line_of, of_scenes = line_key(rows), has_scenes(rows)
     places = [line for group, own in groupby(lines, key=lambda line: line[0]) for line in ((group, ""), *own)]
     kappas = {line: kappa_of([row for row in rows if line_of(row) == line]) for line in lines}
     with_kappa = any(kappas.values())
     counts = Counter(map(outcome_of, rows))
-    subject = f"{len(lines)} adapted meshes" if wide else f"{len(lines)} scenes on {rows[0].mesh}"
+    subject = f"{len(lines)} scenes on {rows[0].mesh}" if of_scenes else f"{len(lines)} adapted meshes"
     across = len(columns) + 1.5 * with_kappa
-    cell = min(WIDE if wide else CELL, (PAGE_WIDTH - 1.9) / across)
+    cell = min(CELL if of_scenes else WIDE, (PAGE_WIDTH - 1.9) / across)
     names = max(width_of(line[1] or line[0], TYPE, "bold") for line in places) / 72 + 0.2
     above = max(width_of(name, TYPE) for name in columns) / 72 + 0.15
     key = [(f"{MARKS[outcome][0]} {words}: {counts[outcome]}".strip(), dict(
@@ -127,9 +135,9 @@ def draw(rows: list[Row], width: float) -> Sheet:
         for words in [WORDS.get(outcome, outcome.replace("_", " "))]]
     sheet = Sheet(
         max(names + cell * across + 0.2, 5), f"Outcomes: {len({row.method for row in rows})} methods, {subject}{at_stop(rows)}",
-        f"{threads(rows)}. A row is an adapted mesh, a cell the time of one solve." if wide else
         "A row is an extreme scene. ok: all errors and residuals at most the target; a number n: the errors of "
-        "stresses and contact forces are at most 1e-n; +: no such error is known.",
+        "stresses and contact forces are at most 1e-n; +: no such error is known." if of_scenes else
+        f"{threads(rows)}. A row is an adapted mesh, a cell the time of one solve.",
         "A column with several methods: how many of them are ok, in the colour of the worst outcome; each case is in "
         "the CSV. Empty: not in the study. Last line: how many of a column's cases are ok.",
         "κ: estimate of the 1-norm condition number of the matrix that a method factorises, the largest of those that got "
@@ -142,7 +150,7 @@ def draw(rows: list[Row], width: float) -> Sheet:
     for x, methods in enumerate(columns.values()):
         for y, line in enumerate(places):
             if own := [row for method in methods for row in cases.get((line, method), ())]:
-                words, fill, ink = cell_of(own, wide)
+                words, fill, ink = cell_of(own, wide=not of_scenes)
                 bold = fill == MARKS["wrong_success"][1]
                 axes.add_artist(Rectangle((x, y), 1, 1, facecolor=fill, edgecolor="black" if bold else "white",
                                           linewidth=0.6, clip_on=False, zorder=2 + bold))

@@ -15,12 +15,11 @@ from matplotlib.axes import Axes
 
 from drawing import Drawing, Sheet, keys, log_axis
 from records import Row
-from selection import compared, grouped, with_suffix
+from selection import by_stop, compared, grouped, of_kind, with_suffix
 from words import axis_label, counted, csv_of, left_out, threads
 
 METHODS = 2  # at least
-SETS = {"": "", "stability": "_stability", "adapted": "_adapted",
-        "load-steps": "_load_steps"}  # study -> end of the file's name
+KINDS = ("", "stability", "adapted", "load_steps")  # of studies; "": ordinary runs
 ROOM = 10  # methods
 FEWEST = 3  # cases
 RESAMPLES, SEED, CONFIDENCE = 400, 1, 0.95
@@ -127,9 +126,9 @@ def jumps(values: np.ndarray) -> np.ndarray:
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    for (study, stop), own in grouped([row for row in rows if row.study in SETS],
-                                      lambda row: (row.study, row.stop)).items():
-        yield Drawing(with_suffix(f"profiles{SETS[study]}", stop), own, draw, table_of)
+    for kind in KINDS:
+        for stop, own in by_stop(of_kind(rows, kind)).items():
+            yield Drawing(with_suffix("_".join(filter(None, ("profiles", kind))), stop), own, draw, table_of)
 
 
 def profiles_of(cases: Cases) -> list[Profile]:

@@ -57,7 +57,7 @@ def case(mesh: str, method: str, **cells: object) -> dict[str, object]:
     row |= dict(scene="default", stop="target", status="ok", outcome="ok", threads=1,
                 repetitions=5, time_s=0.5, peak_heap_bytes=2**22, error_force=1e-9,
                 error_stress=1e-10, target_error=1e-6)
-    return row | cells
+    return row | dict(points=records.POINTS_OF_OLDER.get(cells.get("study"), "")) | cells
 
 
 def split(mesh: str, method: str, **owners: tuple[float, float | None]) -> dict[str, object]:
@@ -155,6 +155,49 @@ def sizes_to_the_limit() -> list[dict[str, object]]:
                                  time_s=1e-8 * n_phi ** (1.2 + 0.1 * k),
                                  peak_heap_bytes=int(600 * n_phi ** (1.1 + 0.03 * k))))
     return rows
+
+
+def of_all_kinds() -> list[dict]:
+    """Lines of records of an ordinary run and of every study."""
+    rows = error_study(["Mesh0", "Mesh1", "Mesh4"]) + stability_study("Mesh0")
+    rows += sizes_to_the_limit()
+    rows += [case("Mesh1", f"{family}:{name}") for family in ("SYMMLQ", "3STEPCG")
+             for name in ("DTIC4", "FLIC2", "SSOR1.0", "NONE")]
+    rows += [case("Mesh3", method, study="load-steps", scene=f"steps_{n:02d}",
+                          load_steps=n, time_s=0.1 * k + 0.01 * n) for n in (1, 5, 20)
+             for k, method in enumerate(("3STEPD", "ALM"))]
+    rows += [case(f"Mesh{k}", method, study="scaling", threads=p, knob="threads", knob_value=p,
+                          time_s=0.1 * k / (1 + 0.3 * m * (p - 1)))
+             for k in (4, 5, 6, 7) for p in (1, 2, 4, 6)
+             for m, method in enumerate(("3STEPD", "BLIND", "SDTIC6"))]
+    rows += [case(f"Mesh{k}+adapt{level}", method, study="adapted", n_phi=900 * 2**level,
+                          error_discretisation=0.1, condition_estimate=1e9)
+             for k in (0, 4) for level in range(4) for method in ("HYBRID", "3STEPD:CHOLMOD")]
+    rows += [case(f"Mesh0+adapt{level}", "HYBRID", n_phi=900 * 2**level, adapt_level=level,
+                          adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**level,
+                          time_s=0.02 * 2**level, lower_bound_Nmm=27 - 0.1 / 4**level,
+                          upper_bound_Nmm=27 + 0.2 / 4**level) for level in range(4)]
+    rows += [case(f"L+adapt{level}" + "k2" * (degree == 2), method, scene="L", degree=degree,
+                          adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**(degree * level))
+             for level in range(4)
+             for method, degree in (("HYBRID", 1), ("HYBRID:k=2", 2), ("P2", 1))]
+    rows += [case(mesh, "ALM:AUTO", stop=stop, time_s=time_s * slower, error_total=error)
+             for stop, slower in (("target", 5), ("paper", 1))
+             for mesh, time_s, error in (("Mesh0", 0.01, 0.04), ("Mesh1", 0.05, 0.02))]
+    rows += [case(f"Mesh3+refine{k}", method, n_phi=6287 * 4**k, time_s=0.01 * 5**k * m,
+                          peak_heap_bytes=int(2**23 * 4.2**k), linear_iterations=40 + k,
+                          error_stress="" if k == 4 else 1e-12, error_estimate=1e-8)
+             for k in range(1, 5) for m, method in enumerate(("HYBRID", "HYBRID:CG"), 1)]
+    rows += [case(mesh, "3STEPD", study="contact", scene=scene, contact_solver=solver,
+                          stage_contact_s=0.01, contact_iterations=20) for mesh in ("Mesh0", "Mesh1")
+             for scene in ("default", "friction_10") for solver in ("newton", "admm")]
+    rows += [case("Mesh0", f"EXTERNAL:x:penalty={value}", time_s=0.1 * value, error_total=0.1 / value,
+                          parameters=f"penalty={value}; direct", program="x 1", family="EXTERNAL:x",
+                          in_displacements="true") for value in (1, 10)]
+    owned = [split("Mesh0", method, factor=(3, 2)) for method in ("BLIND:LEAN", "NEWTON")]
+    told = [record(case("Mesh2", method)) | {"histories": {"residual": [1, 0.1, 1e-3, None]}}
+            for method in ("BLIND:SKY", "SSKY")]
+    return [record(row) for row in rows] + owned + told
 
 
 def write(path: Path, rows: list[dict[str, object]], columns: list[str] = COLUMNS) -> None:

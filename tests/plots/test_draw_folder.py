@@ -24,6 +24,8 @@ class DrawFolderTest(unittest.TestCase):
 
     def test_programs_follow_what_the_folder_has(self) -> None:
         for records, programs in (([BODY], ["figures.py"]), ([PROBLEM], ["contact_profiles.py"]),
+                                  ([PROBLEM | {"study": "mine", "points": "contact"}], ["contact_profiles.py"]),
+                                  ([PROBLEM | {"points": None}], ["figures.py"]),
                                   ([PROBLEM, BODY], ["contact_profiles.py", "figures.py"]),
                                   ([PROBLEM | {"study": ""}], ["figures.py"]), ([], ["figures.py"])):
             self.write(*records)

@@ -63,20 +63,19 @@ class EveryMethodTest(unittest.TestCase):
                     else case for case in error]
         self.assert_named(self.words(unsolved), "error_time error_time_forces", METHODS[:5])
         steps = [case | dict(load_steps=n, scene=f"steps_{n:02d}") for n in (1, 5) for case in
-                 study("load-steps", ("Mesh0",))] + [made_up.case(mesh, "BLIND", study="load-steps", load_steps=1)
-                                                     for mesh in ("Mesh3",)]
+                 study("load-steps", ("Mesh0",))] + [made_up.case("Mesh3", "BLIND", study="load-steps", load_steps=1,
+                                                                  scene="steps_01")]
         self.assert_named(self.words(steps), "load_steps")
         threads = [case | dict(threads=p, knob="threads", knob_value=p) for p in (1, 2)
                    for case in study("scaling")]
         once = [case | dict(repetitions=1) if case["method"] == "ALM" else case for case in threads]
         self.assert_named(self.words(once), "scaling")
-        self.assert_named(self.words(study("adapted", condition_estimate=1e9)), "outcomes_adapted")
+        self.assert_named(self.words(study("adapted", ("Mesh0+adapt2", "Mesh4+adapt2"), condition_estimate=1e9)), "outcomes_adapted")
         self.assert_named(self.words(study("stability", scene_group="loads")), "outcomes_Mesh0")
 
     def test_a_figure_for_each_stop(self) -> None:
-        for name, cells, figure in (("stability", dict(scene_group="loads"), "outcomes_Mesh0"),
-                                    ("adapted", {}, "outcomes_adapted")):
-            own = [case for case in study(name, **cells) if case["mesh"] == "Mesh0"]
+        for own, figure in ((study("stability", ("Mesh0",), scene_group="loads"), "outcomes_Mesh0"),
+                            (study("adapted", ("Mesh0+adapt2",)), "outcomes_adapted")):
             paper = [case | dict(stop="paper") for case in own if case["method"] == "ALM"]
             drawn = {drawing.name: drawing.rows for drawing in figures.drawings_of(made_up.read(own + paper))}
             self.assertEqual((len(drawn[figure]), len(drawn[f"{figure}_paper_stop"])), (len(own), 1))

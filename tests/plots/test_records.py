@@ -154,7 +154,7 @@ class ReaderTest(FolderTest):
                 ([case("Mesh0", "3STEPD")], "family", "no columns family; expected one each of"),
                 ([case("Mesh0", "3STEPD")], "in_paper", "no columns in_paper; expected"),
                 (made_up.error_study(["Mesh0"])[:2], "error_total", "study of line 2 needs it"),
-                (made_up.stability_study()[:2], "scene_group", "study of line 2 needs it")):
+                (made_up.stability_study()[:2], "error_stress", "study of line 2 needs it")):
             made_up.write(self.csv, rows, [c for c in made_up.COLUMNS if c != column])
             self.assert_refused(f"{self.csv}:1: no column", column, part)
 

@@ -8,6 +8,7 @@ import made_up  # finds plots
 
 import drawn
 import figures
+from documents import documents_of
 from drawing import PAGE_WIDTH
 from drawn import words_of
 from figure import memory_by_owner as memory_figure
@@ -33,6 +34,17 @@ class StudyFiguresTest(drawn.FiguresTest):
             self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
             self.assertLess(len(data), 300_000, path.name)
             self.assertGreaterEqual(struct.unpack(">I", data[16:20])[0], 600, path.name)
+
+    def test_no_figure_asks_for_the_name_of_a_study(self) -> None:
+        """A copy of a study under another name has the same figures of the same cases, with the same numbers."""
+        def drawn_of(names: dict[str, str]) -> list[tuple[str, str, str]]:
+            rows = made_up.read_lines([line | {"study": names.get(line["study"], line["study"])} for line in lines])
+            return [(drawing.name, drawing.table(drawing.rows), documents_of(rows).keys())
+                    for drawing in figures.drawings_of(rows)]
+        lines = made_up.of_all_kinds()
+        studies = [study for study in {line["study"] for line in lines} if study]
+        self.assertEqual(drawn_of({}), drawn_of({study: f"{study} again" for study in studies}))
+        self.assertEqual(drawn_of({}), drawn_of(dict(zip(studies, studies[1:] + studies[:1]))))  # names of others
 
     def test_what_cannot_be_drawn_is_said(self) -> None:
         self.figures.mkdir()
