@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 
 #include "support/data_folder.hpp"
 #include "support/errors.hpp"
@@ -22,14 +24,6 @@ namespace airybench::process_test {
 namespace {
 
 constexpr double patience_s = 600;  // of what is to end by itself
-
-// Three that stay: a child, one in another session whose parent has ended, the program.
-constexpr const char* three = R"(
-sleep 1000 & echo $! > child
-( setsid sh -c 'echo $$ > orphan; exec sleep 1000' & )
-while ! test -s orphan; do sleep 0.01; done
-echo $$ > program.new; mv program.new program
-)";
 
 bool is_gone(pid_t process) { return kill(process, 0) != 0 && errno == ESRCH; }
 
@@ -47,13 +41,30 @@ class ProcessTree : public ::testing::Test {
   pid_t pid_in(const std::string& file) const {
     return std::stoi(testing::text_of(folder_ / file));
   }
+  const testing::TemporaryFolder folder_;
+};
+
+// Three that stay: a child, one in another session whose parent has ended, the program.
+constexpr const char* three = R"(
+sleep 1000 & echo $! > child
+( setsid sh -c 'echo $$ > orphan; exec sleep 1000' & )
+while ! test -s orphan; do sleep 0.01; done
+echo $$ > program.new; mv program.new program
+)";
+
+class ProcessTreeWithOrphan : public ProcessTree {
+ protected:
+  void SetUp() override {
+    if (prctl(PR_SET_CHILD_SUBREAPER, 0) != 0)  // this process is none now
+      GTEST_SKIP() << "nobody can adopt orphans here: prctl(PR_SET_CHILD_SUBREAPER) fails: "
+                   << std::strerror(errno);
+  }
   void expect_nobody_is_left() const {
     for (const char* file : {"child", "orphan", "program"})
       EXPECT_TRUE(is_gone(pid_in(file))) << file;
     EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no zombie
     EXPECT_EQ(errno, ECHILD);
   }
-  const testing::TemporaryFolder folder_;
 };
 
 TEST_F(ProcessTree, SaysHowTheProgramEnded) {
@@ -103,12 +114,12 @@ TEST_F(ProcessTree, InputIsEmptyPrintsAreKeptAndNoFilesAreInherited) {
             "to stdout\nto stderr\nits own\n0\n1\n2\n3\n");  // 3: the folder that ls reads
 }
 
-TEST_F(ProcessTree, WhatTheProgramLeavesBehindIsEnded) {
+TEST_F(ProcessTreeWithOrphan, WhatTheProgramLeavesBehindIsEnded) {
   EXPECT_EQ(run(three).exit_code, 0);
   expect_nobody_is_left();
 }
 
-TEST_F(ProcessTree, TheTimeLimitEndsAll) {
+TEST_F(ProcessTreeWithOrphan, TheTimeLimitEndsAll) {
   const ChildEnd end = run(std::string(three) + "sleep 1000", {0.5});
   EXPECT_TRUE(end.timed_out);
   EXPECT_EQ(end.signal, SIGKILL);
@@ -116,7 +127,7 @@ TEST_F(ProcessTree, TheTimeLimitEndsAll) {
   if (std::filesystem::exists(folder_ / "program")) expect_nobody_is_left();
 }
 
-TEST_F(ProcessTree, TheMemoryLimitEndsAll) {
+TEST_F(ProcessTreeWithOrphan, TheMemoryLimitEndsAll) {
   const ChildEnd end = run(std::string(three) + "head -c 300M /dev/zero | tail -c 300M",
                            {patience_s, std::int64_t{100} << 20});
   EXPECT_TRUE(end.over_memory);
@@ -150,7 +161,7 @@ TEST_F(ProcessTree, MemoryIsNotThatOfItsParent) {
   EXPECT_LE(max_bytes, std::int64_t{8} << 20);
 }
 
-TEST_F(ProcessTree, WhoEndsItsGuardianIsNoAnswer) {
+TEST_F(ProcessTreeWithOrphan, WhoEndsItsGuardianIsNoAnswer) {
   EXPECT_THROW(run(std::string(three) + "kill -KILL $PPID; sleep 1000"), std::runtime_error);
   expect_nobody_is_left();
 }
@@ -179,7 +190,7 @@ TEST_F(ProcessTree, ASuspensionOfAllDoesNotCount) {
 }
 
 // The caller ends by this signal, which all of its process group gets.
-class CallerEnded : public ProcessTree, public ::testing::WithParamInterface<int> {};
+class CallerEnded : public ProcessTreeWithOrphan, public ::testing::WithParamInterface<int> {};
 
 TEST_P(CallerEnded, EverythingEndsWithIt) {
   std::filesystem::create_directories(folder_ / "scratch/input");
