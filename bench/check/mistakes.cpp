@@ -20,6 +20,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 struct Law {
   bool opens = true;                                        // else F_n may pull
   std::function<double(int point, double F_n)> limit = {};  // of |F_t|, N; empty: −μ F_n
+  bool lower_bound_wins = false;                            // where the limit is negative
 };
 
 // Gauss–Seidel by components, since our own contact solvers know the right law only. Empty: no
@@ -40,7 +41,9 @@ VectorXd solved(const contact::Problem& problem, const Law& law = {}) {
       F(n) = law.opens ? std::min(0.0, without_r(n)) : without_r(n);
       if (points.components == 1) continue;
       const double most = law.limit ? law.limit(p, F(n)) : points.friction_at(p) * std::abs(F(n));
-      F(n + 1) = std::clamp(without_r(n + 1), -most, most);
+      const double sticking = without_r(n + 1);
+      F(n + 1) = law.lower_bound_wins ? std::max(std::min(sticking, most), -most)
+                                      : std::min(std::max(sticking, -most), most);
     }
     if (!F.allFinite()) break;
     if ((F - before).norm() <= tolerance * F.norm()) return F;
@@ -72,8 +75,10 @@ struct Collector {
     read(
         name, [](contact::Problem&) {}, wrong);
   }
-  void friction(const std::string& name, const std::function<double(int point)>& mu) {
+  void friction(const std::string& name, const std::function<double(int point)>& mu,
+                bool lower_bound_wins = false) {
     Law wrong;
+    wrong.lower_bound_wins = lower_bound_wins;
     wrong.limit = [mu](int point, double F_n) {
       const double friction = mu(point);
       return F_n == 0 ? 0 : friction * std::abs(F_n);
@@ -171,6 +176,9 @@ void add_laws(Collector& to) {
   to.friction("friction: twice mu", [=](int p) { return 2 * mu(p); });
   to.friction("friction: half of mu", [=](int p) { return mu(p) / 2; });
   to.friction("friction: none", [](int) { return 0.0; });
+  for (const bool lower_bound_wins : {false, true})  // of forces on the body, or on the wall
+    to.friction(
+        "friction: the sign of mu", [=](int p) { return -mu(p); }, lower_bound_wins);
   to.friction("friction: mu squared", [=](int p) { return mu(p) * mu(p); });
   to.friction("friction: the sine of its angle for the tangent",
               [=](int p) { return mu(p) / std::hypot(1, mu(p)); });

@@ -39,7 +39,7 @@ Main options of a run ({bench} --help-all: every option, the exit codes, more ex
   --scene=FILES      loads, friction, materials; default: the documented tooth or rack
   --method=METHODS   names or globs; default: the paper's, for your own bodies HYBRID and P2
   --adapt=GOALS      refine where the error is, until it is below 1%, or until 50000 unknowns
-  --study=NAME       error, stability, adapted, ...: cases and options that answer one question
+  --study=NAME       contact, error, stability, adapted, ...: what answers one question
   --external=FILES   other programs next to ours
   --fields           stresses, displacements and total errors, too
   --dry-run          what would run, and how long it would take

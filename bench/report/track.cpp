@@ -95,6 +95,14 @@ void compare_contexts(const TrackedRun& before, const TrackedRun& now,
     if (const std::string name = name_of(record).text(); now.find(name) == nullptr)
       findings.push_back(finding_of(name, Lane::status, "status", name_of(record.status), "not run",
                                     Kind::changed, now.date));
+  constexpr const char* setting = "target_error";
+  const auto had = context_word(before.context, setting), has = context_word(now.context, setting);
+  if (!had.empty() && had != has) {
+    findings.push_back(
+        finding_of(all_cases, Lane::status, setting, had, has, Kind::changed, now.date));
+    findings.back().sentence = fmt::format(
+        "all cases: {} was {} and is {}: counters and errors follow it.", setting, had, has);
+  }
   std::string changes;
   for (const char* key : library_keys)
     if (context_word(before.context, key) != context_word(now.context, key))

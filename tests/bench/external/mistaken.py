@@ -34,7 +34,9 @@ def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False, sticks=False, p
                     most = np.inf
                 if pulled is not None and F[n] > 0:
                     most = pulled
-                F[n + 1] = np.clip(F[n + 1] - (D[n + 1] @ F + b[n + 1]) / D[n + 1, n + 1], -most, most)
+                free = F[n + 1] - (D[n + 1] @ F + b[n + 1]) / D[n + 1, n + 1]
+                F[n + 1] = -np.clip(-free, -most, most) if mistake == "sign_of_mu_of_reactions" else \
+                    np.clip(free, -most, most)
         change = np.linalg.norm(F - before)
         if not fixed and change <= (tolerance if absolute else tolerance * np.linalg.norm(F)):
             return F
@@ -50,6 +52,8 @@ def forces(D, G, gap, mu):
     b = -G - gap
     if mistake == "friction_factor":
         mu = 2 * mu
+    if mistake.startswith("sign_of_mu"):
+        mu = -mu
     if mistake == "sine":
         mu = mu / np.sqrt(1 + mu**2)
     if mistake == "unlike_any":

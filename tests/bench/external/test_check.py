@@ -27,6 +27,8 @@ MISTAKES = {
               "the order of the forces: all normal ones, then all tangential ones"),
     "box": ("06_friction_cone", "friction: a box, |F_t| <= mu without F_n"),
     "friction_factor": ("06_friction_cone", "friction: twice mu"),
+    "sign_of_mu": ("06_friction_cone", "friction: the sign of mu"),
+    "sign_of_mu_of_reactions": ("06_friction_cone", "friction: the sign of mu"),
     "sine": ("06_friction_cone", "friction: the sine of its angle for the tangent"),
     "no_cone": ("06_friction_cone", "friction: without a limit, all closed points stick"),
     "tension": ("07_opening", "points do not open: F_n > 0"),
@@ -80,7 +82,8 @@ class Check(unittest.TestCase):
                 self.assertNotRegex(lines[case], r" ok +-$")
 
     def test_mistakes_of_the_equations_are_the_conclusion_too(self) -> None:
-        for mistake in ("sign_of_G", "sign_of_gap", "units", "order", "box", "tension"):
+        for mistake in ("sign_of_G", "sign_of_gap", "units", "order", "box", "tension", "sign_of_mu",
+                        "sign_of_mu_of_reactions"):
             with self.subTest(mistake):
                 _, _, out = self.check(mistake)
                 self.assertIn(f"all its answers look like: {MISTAKES[mistake][1]}\n", out)

@@ -120,6 +120,19 @@ TEST(Track, HeapFiguresStartAgainWithOtherLibraries) {
   EXPECT_TRUE(testing::contains(findings[0].sentence, "GNU 12 → GNU 14"));
 }
 
+TEST(Track, AnotherTargetErrorIsNamedFirst) {
+  Record more = record("ALM", 1);
+  more.linear_iterations = 200;
+  std::vector<TrackedRun> runs = {run_of(0, {record("ALM", 1)}), run_of(1, {more})};
+  runs[0].context["target_error"] = "1e-06";
+  runs[1].context["target_error"] = "1e-09";
+  const std::vector<Finding> findings = tracked(runs).back().findings;
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].kind, Kind::changed);
+  EXPECT_TRUE(testing::contains(findings[0].sentence, "target_error was 1e-06 and is 1e-09"));
+  EXPECT_EQ(findings[1].kind, Kind::worse);
+}
+
 TEST(Track, AnotherMachineIsNotCompared) {
   Record more = record("ALM", 1);
   more.linear_iterations = 500;
