@@ -166,14 +166,24 @@ Rows steps_table(const Record& record) {
   return rows;
 }
 
-std::string error_line(const Record& r) {
+// Friction remembers: where a face slips, several load steps have another answer than one.
+bool depends_on_path(const Record& record, const Json& part) {
+  return record.tangential_resultant_N && record.steps.size() < 2 && !part.is_null() &&
+         std::ranges::any_of(
+             part["faces"], [](const Json& face) { return face["slipping_mm"].get<double>() > 0; });
+}
+
+std::string error_line(const Record& r, const Json& part) {
   if (!r.error_total)
     return fmt::format("total error unknown{}{}", r.no_discretisation_error.empty() ? "" : ": ",
                        r.no_discretisation_error);
   return fmt::format(
-      "total error {:.2g} % in energy: mesh, curves and solver; not included: large strains, other "
-      "laws of friction, errors of loads and supports",
-      100 * *r.error_total);
+      "total error {:.2g} % in energy: mesh, curves and solver; not included: {}large strains, "
+      "other laws of friction, errors of loads and supports",
+      100 * *r.error_total,
+      depends_on_path(r, part)
+          ? "the path of the load (faces slip; this is one step, --steps=N makes more), "
+          : "");
 }
 
 }  // namespace
@@ -193,7 +203,7 @@ PartReport part_report(const Record& record, const Json& part) {
   add_table(steps_table(record));
   if (record.strain_energy_Nmm)
     report.emplace_back(fmt::format("strain energy {:.5g} N mm", *record.strain_energy_Nmm));
-  report.emplace_back(error_line(record));
+  report.emplace_back(error_line(record, part));
   if (record.status != Status::ok)
     report.emplace_back(fmt::format("{}: {}", name_of(record.status), record.status_reason));
   else if (!record.status_reason.empty())

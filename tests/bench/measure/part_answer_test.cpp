@@ -160,6 +160,27 @@ TEST(PartTable, FacesHaveTheirIntervals) {
   EXPECT_EQ(row(R"({"value": 0, "at_mm": [0, 0], "is": "bounded"})").at(4), "-");
 }
 
+TEST(PartTable, SaysThatSlipInOneStepDependsOnThePath) {
+  Json part = parse_json(R"({"faces": [{"name": "contact:sole", "force_N": [0, 8], "normal_N": -8,
+      "tangential_N": 1, "length_mm": 4, "closed_mm": 2, "slipping_mm": 1,
+      "pressure_MPa": {"value": 6, "at_mm": [1, 0], "is": "not seen"}}], "supports": [],
+      "von_mises_MPa": {"value": 1, "at_mm": [0, 0]},
+      "principal_MPa": {"value": 1, "at_mm": [0, 0]}, "unbounded": []})");
+  const auto says_so = [&](const Record& record) {
+    return testing::contains(text_of(part_report(record, part)), "the path of the load");
+  };
+  Record record;
+  record.error_total = 0.01;
+  EXPECT_FALSE(says_so(record));  // without friction
+  record.tangential_resultant_N = 1;
+  EXPECT_TRUE(says_so(record));
+  Record path = record;
+  path.steps.resize(2);
+  EXPECT_FALSE(says_so(path));
+  part["faces"][0]["slipping_mm"] = 0;
+  EXPECT_FALSE(says_so(record));
+}
+
 TEST(PartTable, NamesPlacesOfUnboundedStressByWhatTheyAre) {
   Json part =
       parse_json(R"({"faces": [], "supports": [], "von_mises_MPa": {"value": 7, "at_mm": [1, 2],
