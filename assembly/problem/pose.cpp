@@ -150,7 +150,8 @@ void check_pins(const Scene& scene, const std::string& prefix, const Problem& pr
     if (std::ranges::count(pins, motion.piece, piece_of) == 0)
       fail(scene, prefix + "mesh " + problem.mesh.name,
            name_of_piece(problem.mesh, piece_of_vertex, motion.piece),
-           "has neither two force edges nor displacement edges (allowed: either)");
+           "needs two force edges, as contact alone holds its motion (allowed: these, or "
+           "displacement edges that hold it)");
 }
 
 // Displacement methods have one direction at a node: along the roller, and of the contact law.

@@ -401,7 +401,7 @@ TEST(FreeBodies, OneThatIsInContactAllAroundIsRefused) {
   scene.wall = PolylineWall{{{0, 0}, {12, 0}, {12, 5}, {0, 5}}};
   scene.boundary["displacement"].support = BoundaryValues::Support::normal;
   testing::expect_named(testing::complaint_of<SceneError>([&] { pose(scene, block); }),
-                        {"mesh block: the body block has neither two force edges nor"});
+                        {"mesh block: the body block needs two force edges"});
 }
 
 }  // namespace
