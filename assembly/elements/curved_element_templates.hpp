@@ -58,6 +58,13 @@ const LagrangeBasis<Scalar>& basis_at(int parts, int q) {
   return bases.at(static_cast<std::size_t>((parts - 1) * n + q));
 }
 
+// The same of a curve itself.
+template <typename Scalar, int n>
+CurvePoint<Scalar> point_at(const SideCurve& curve, int q) {
+  return {curve,
+          [q](int parts) -> const LagrangeBasis<Scalar>& { return basis_at<Scalar, n>(parts, q); }};
+}
+
 // ρ and weights of 1, 2, ... points.
 template <typename Scalar>
 struct AcrossRule {
@@ -115,10 +122,8 @@ CurvedThird<Scalar>::CurvedThird(const SideCurve& curve, int degree)
       a_(curve.points_mm.front().cast<Scalar>()),
       b_(curve.points_mm.back().cast<Scalar>()) {
   for (int q = 0; q < points; ++q) {
-    const CurvePoint<Scalar> point({curve.points_mm, {}, {}},
-                                   [q](int parts) -> const LagrangeBasis<Scalar>& {
-                                     return curved_formulas::basis_at<Scalar, points>(parts, q);
-                                   });
+    const CurvePoint<Scalar> point =
+        curved_formulas::point_at<Scalar, points>({curve.points_mm, {}, {}}, q);
     at_[q] = point.at;
     normal_[q] = Vector(point.tangent.y(), -point.tangent.x());
   }
@@ -136,10 +141,7 @@ CurvedSide<Scalar>::CurvedSide(const SideCurve& curve, int degree)
   for (int q = 0; q < points; ++q) {
     set_test(q);
     Eigen::Matrix2<Scalar> frame = Eigen::Matrix2<Scalar>::Identity();
-    if (has_law)
-      frame = CurvePoint<Scalar>(curve, [q](int parts) -> const LagrangeBasis<Scalar>& {
-                return curved_formulas::basis_at<Scalar, points>(parts, q);
-              }).frame;
+    if (has_law) frame = curved_formulas::point_at<Scalar, points>(curve, q).frame;
     density_[q].resize(2, 2 * count);
     OfPoint along(2, 2 * count);  // B_j of x and of y
     for (int j = 0; j < count; ++j) {

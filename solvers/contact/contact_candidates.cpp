@@ -25,6 +25,21 @@ Eigen::VectorXd rows_of(const Eigen::VectorXd& all, const std::vector<int>& poin
   return rows;
 }
 
+// The converse of rows_of().
+void put_rows(const Eigen::VectorXd& rows, const std::vector<int>& points, int m,
+              Eigen::VectorXd& all) {
+  for (std::size_t k = 0; k < points.size(); ++k)
+    all.segment(m * points[k], m) = rows.segment(m * static_cast<Eigen::Index>(k), m);
+}
+
+// Both edges of a pair are candidates, or none.
+void add_opposite(const Problem& problem, std::vector<bool>& rows) {
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (const int other = problem.opposite_of(static_cast<int>(row));
+        rows[row] && other != Problem::no_row)
+      rows[static_cast<std::size_t>(other)] = true;
+}
+
 // ū_C at every contact point.
 Eigen::VectorXd contact_displacement(const ContactSystem& system, const EdgeDisplacements& u) {
   const Problem& problem = *system.problem;
@@ -75,13 +90,10 @@ class CandidateSolve {
     Solution solution = run(solve, part, of_part);
     if (!has_answer(solution.status)) return solution;
     Eigen::VectorXd F = Eigen::VectorXd::Zero(system.contact.size());
-    for (std::size_t k = 0; k < points.size(); ++k)
-      F.segment(m * points[k], m) = solution.F_C.segment(m * static_cast<Eigen::Index>(k), m);
+    put_rows(solution.F_C, points, m, F);
     Eigen::VectorXd u =
         contact_displacement(system, std::get<EdgeDisplacements>(solution.unknowns));
-    for (std::size_t k = 0; k < points.size(); ++k)  // the law's own digits
-      u.segment(m * points[k], m) =
-          solution.contact_displacement.segment(m * static_cast<Eigen::Index>(k), m);
+    put_rows(solution.contact_displacement, points, m, u);  // the law's own digits
     solution.F_C = std::move(F);
     solution.contact_displacement = std::move(u);
     return solution;
@@ -107,9 +119,7 @@ class CandidateSolve {
     for (int p = 0; p < points.count; ++p)
       for (const int v : mesh.boundary[points.boundary[p]].vertices)
         if (touches[v]) rows_[points.boundary[p]] = true;
-    for (int p = 0; p < points.count; ++p)
-      if (const int q = points.opposite_of(p); q != ContactPoints::no_point)
-        if (rows_[points.boundary[p]]) rows_[points.boundary[q]] = true;
+    add_opposite(*system.problem, rows_);
     return true;
   }
 
@@ -158,17 +168,12 @@ ContactPoints at_rows(const ContactPoints& points, const std::vector<bool>& rows
 
 Solve on_candidates(Solve solve, const Problem& problem, std::vector<bool> rows) {
   constexpr double nearly_all = 0.8;
+  add_opposite(problem, rows);
   std::size_t contact = 0, candidates = 0;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
-    if (const int other = problem.opposite_of(static_cast<int>(row));
-        rows[row] && other != Problem::no_row)
-      rows[static_cast<std::size_t>(other)] = true;
-  }
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    const bool in_contact = problem.mesh.boundary[row].role == BoundaryRole::contact;
-    contact += in_contact ? 1 : 0;
-    candidates += in_contact && rows[row] ? 1 : 0;
+    ++contact;
+    candidates += rows[row] ? 1 : 0;
   }
   if (candidates == 0 ||
       static_cast<double>(candidates) > nearly_all * static_cast<double>(contact))
