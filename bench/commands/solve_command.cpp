@@ -28,7 +28,7 @@ constexpr const char* solve_footer = R"(
 MODEL is a mesh or a Gmsh model; an input deck (.inp) contains its scene. The mesh is adapted to the total error (relative, in energy), then
 until the largest stress, where it is bounded, is known to twice that error, a finer mesh gains less than a tenth, or five more meshes
 are done. With :force or :pressure half the interval of F_n or of the largest pressure must be that narrow, of all faces together and of
-each that carries more than 1 % of the load.
+each that carries more than 1 % of the load, unless two rounds of finer meshes hardly narrow it.
 In OUT: the picture figures/part.png, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), meshes and
 records; with --html also part.html, one self-contained page with the picture and all that is printed.
 

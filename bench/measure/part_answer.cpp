@@ -47,19 +47,22 @@ class PartReader {
       answer.free_motion = words_of_open_motions(rigid_contact(problem_));
     if (w && answer.free_motion.empty())
       answer.displacement_mm = largest_displacement(with_rigid_motion(problem_, *w));
-    std::tie(answer.von_mises, answer.principal) = judged_largest_stresses(w);
+    const std::vector<LargestStresses> of_bodies = judged_largest_stresses(w);
+    answer.stress = largest_of(of_bodies);
+    for (std::size_t k = 0; k < of_bodies.size() && of_bodies.size() > 1; ++k)
+      answer.bodies.emplace_back(mesh_.body_names[k], of_bodies[k]);
     answer.unbounded = singular_;
     return answer;
   }
 
   std::optional<StressDoubt> stress_doubt(const std::optional<DisplacementField>& w) const {
-    const auto judged = judged_largest_stresses(w);
+    const LargestStresses judged = largest_of(judged_largest_stresses(w));
     constexpr double rounding = 1e-9;  // von Mises of a hydrostatic stress, which is 0
     StressDoubt doubt;
-    const double size_MPa = std::max(judged.first.value, std::abs(judged.second.value));
+    const double size_MPa = std::max(judged.von_mises.value, std::abs(judged.principal.value));
     std::array<double, 2> least = {infinity, infinity};  // that may be the largest
     for (const auto& [largest, from] :
-         {std::pair(&judged.first, &least[0]), {&judged.second, &least[1]}})
+         {std::pair(&judged.von_mises, &least[0]), {&judged.principal, &least[1]}})
       if (const double value = std::abs(largest->value);
           largest->off_MPa && value > rounding * size_MPa && !is_at_circle(largest->at_mm)) {
         doubt.relative = std::max(doubt.relative, *largest->off_MPa / value);
@@ -113,23 +116,26 @@ class PartReader {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  // Von Mises and principal, with what is known of them.
-  std::pair<LargestStress, LargestStress> judged_largest_stresses(
+  // Per body, with what is known of them.
+  std::vector<LargestStresses> judged_largest_stresses(
       const std::optional<DisplacementField>& w) const {
-    std::pair<LargestStress, LargestStress> judged = largest_stresses(stress_);
+    std::vector<LargestStresses> judged = largest_stresses(stress_);
     if (w && error_ != nullptr) {
-      const auto [von_mises, principal] = largest_stresses(stress_of_displacement(problem_, *w));
+      const std::vector<LargestStresses> of_displacements =
+          largest_stresses(stress_of_displacement(problem_, *w));
       // For one unit of energy density: von Mises² ≤ 3 G σ:C:σ, principal² ≤ A_nnnn σ:C:σ.
-      const auto estimate = [&](LargestStress& largest, double of_displacements, int component,
-                                double factor) {
+      const auto estimate = [&](LargestStress& largest, const LargestStress& displaced,
+                                int component, double factor) {
         const int t = largest.triangle;
         const Eigen::Matrix3d A = elasticity_of(problem_.compliance_of(t));
         largest.off_MPa = twice_estimated_error_MPa(
             problem_, *error_, t, factor * A(component, component),
-            std::abs(largest.value) - std::abs(of_displacements), std::abs(largest.value));
+            std::abs(largest.value) - std::abs(displaced.value), std::abs(largest.value));
       };
-      estimate(judged.first, von_mises.value, 2, 3);
-      estimate(judged.second, principal.value, 0, 1);
+      for (std::size_t k = 0; k < judged.size(); ++k) {
+        estimate(judged[k].von_mises, of_displacements[k].von_mises, 2, 3);
+        estimate(judged[k].principal, of_displacements[k].principal, 0, 1);
+      }
     }
     return judged;
   }
@@ -284,17 +290,25 @@ class PartReader {
     }
   }
 
-  // Von Mises and principal.
-  std::pair<LargestStress, LargestStress> largest_stresses(const StressField& stress) const {
-    std::pair<LargestStress, LargestStress> both;
+  // Per body.
+  std::vector<LargestStresses> largest_stresses(const StressField& stress) const {
+    std::vector<LargestStresses> bodies(mesh_.body_names.size());
     const auto take = [](LargestStress& largest, double value, const Eigen::Vector2d& x, int t) {
       if (std::abs(value) > std::abs(largest.value)) largest = {{value, x}, t, {}};
     };
     each_sample(stress, [&](int t, const Eigen::Vector2d& x, double of_mises, double principal) {
-      take(both.first, of_mises, x, t);
-      take(both.second, principal, x, t);
+      LargestStresses& own = bodies[static_cast<std::size_t>(mesh_.triangle_body[t])];
+      take(own.von_mises, of_mises, x, t);
+      take(own.principal, principal, x, t);
     });
-    return both;
+    return bodies;
+  }
+  static LargestStresses largest_of(const std::vector<LargestStresses>& bodies) {
+    LargestStresses all;
+    for (const LargestStresses& own : bodies)
+      for (const auto of : {&LargestStresses::von_mises, &LargestStresses::principal})
+        if (std::abs((own.*of).value) > std::abs((all.*of).value)) all.*of = own.*of;
+    return all;
   }
 
   // Where a stress that falls from a singular place on is largest.
@@ -409,8 +423,14 @@ Json to_json(const PartAnswer& answer) {
     json["point_supports"].push_back(to_json(support));
   if (answer.displacement_mm) json["displacement_mm"] = to_json(*answer.displacement_mm);
   if (!answer.free_motion.empty()) json["free_motion"] = answer.free_motion;
-  json["von_mises_MPa"] = to_json(answer.von_mises);
-  json["principal_MPa"] = to_json(answer.principal);
+  const auto add_stresses = [](const LargestStresses& stress, Json& to) {
+    to["von_mises_MPa"] = to_json(stress.von_mises);
+    to["principal_MPa"] = to_json(stress.principal);
+  };
+  add_stresses(answer.stress, json);
+  json["bodies"] = Json::array();
+  for (const auto& [name, stress] : answer.bodies)
+    add_stresses(stress, json["bodies"].emplace_back(Json{{"name", name}}));
   json["unbounded"] = Json::array();
   for (const SingularPlace& place : answer.unbounded)
     json["unbounded"].push_back(

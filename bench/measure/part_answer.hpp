@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/measure/field_files.hpp"
@@ -46,13 +47,18 @@ struct LargestStress : ValueAt {  // MPa
   std::optional<double> off_MPa;
 };
 
+struct LargestStresses {
+  LargestStress von_mises, principal;  // principal: the largest by magnitude, with its sign
+};
+
 struct PartAnswer {
   std::vector<FaceAnswer> faces;
   std::vector<SupportAnswer> supports;
   std::vector<PointSupport> point_supports;
   std::optional<ValueAt> displacement_mm;
   std::string free_motion;  // that nothing determines, nor the displacement; empty: there is none
-  LargestStress von_mises, principal;  // principal: the largest by magnitude, with its sign
+  LargestStresses stress;
+  std::vector<std::pair<std::string, LargestStresses>> bodies;  // by name; one alone is left out
   std::vector<SingularPlace> unbounded;
 };
 

@@ -87,6 +87,25 @@ Rows supports_table(const Json& part, const Forces& forces) {
   return rows;
 }
 
+std::string value_and_off(const Json& largest) {
+  return fmt::format(
+      "{:.5g}{}", largest["value"].get<double>(),
+      largest.contains("off") ? fmt::format(" ± {:.2g}", largest["off"].get<double>()) : "");
+}
+
+Rows bodies_table(const Json& part) {
+  if (part["bodies"].empty()) return {};
+  Rows rows = {{"body", "von Mises MPa", "at mm", "principal MPa", "at mm", ""}};
+  for (const Json& body : part["bodies"]) {
+    std::vector<std::string> row = {body["name"]};
+    for (const char* key : {"von_mises_MPa", "principal_MPa"})
+      row.insert(row.end(), {value_and_off(body[key]), place(body[key]["at_mm"])});
+    row.emplace_back();
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 void add_contact_lines(const Record& r, PartReport& report) {
   if (!r.largest_pressure_MPa || *r.largest_pressure_MPa <= 0) return;
   if (r.normal_resultant_N)
@@ -138,10 +157,8 @@ void add_stress_lines(const Json& part, PartReport& report) {
   for (const auto& [name, key] :
        {std::pair("von Mises", "von_mises_MPa"), {"principal", "principal_MPa"}}) {
     const Json& largest = part[key];
-    report.emplace_back(fmt::format(
-        "largest {} stress {:.5g}{} MPa at {}", name, largest["value"].get<double>(),
-        largest.contains("off") ? fmt::format(" ± {:.2g}", largest["off"].get<double>()) : "",
-        place(largest["at_mm"])));
+    report.emplace_back(fmt::format("largest {} stress {} MPa at {}", name, value_and_off(largest),
+                                    place(largest["at_mm"])));
   }
   add_unbounded_line(part["unbounded"], report);
 }
@@ -197,6 +214,7 @@ PartReport part_report(const Record& record, const Json& part) {
     const Forces forces(part);
     add_table(faces_table(part, forces));
     add_table(supports_table(part, forces));
+    add_table(bodies_table(part));
     if (!part["faces"].empty()) add_contact_lines(record, report);
     add_stress_lines(part, report);
   }

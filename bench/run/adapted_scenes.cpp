@@ -247,7 +247,7 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
     result.levels.push_back(posed_level(said, scene, definition, start, options));
   if (!result.why_not_reached.empty())
     result.why_not_reached =
-        fmt::format("--adapt={}: not reached for {}: {}", text_of(options.run.adapt.goals), name,
+        fmt::format("goal {}: not reached for {}: {}", text_of(options.run.adapt.goals), name,
                     result.why_not_reached);
   return result;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/measure/part_answer.hpp"
 #include "tests/bench/measure/csv_columns.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
@@ -135,6 +136,9 @@ double press_fit_MPa() {
   const double r = 10, R = 20, ring = (R * R + r * r) / (R * R - r * r) + nu_ring;
   return 0.01 / r / (ring / E_ring + (1 - nu_shaft) / E_shaft);
 }
+// By von Mises, per pressure: of the shaft, σ_zz = −2νp; of the ring at its bore, σ_θθ = 5/3 p.
+constexpr double shaft_stress = 1 - 2 * 0.3;
+double ring_stress() { return von_mises({-1, 5. / 3, 0}, 0.33 * (5. / 3 - 1)); }
 // Hertz' pressure of a roller of 10 mm on a plate, both of steel, and half the width of contact.
 constexpr double roller_N = 10 * 2 * std::numbers::pi * 3, stiff_MPa = 210000 / (1 - 0.09) / 2;
 double roller_MPa() { return std::sqrt(roller_N * stiff_MPa / (std::numbers::pi * 10)); }
@@ -148,6 +152,8 @@ const std::vector<Known>& known() {
   static const std::vector<Known> list = {
       {"press_fit", "/faces/0/pressure_MPa/value", press_fit_MPa(), 0.01},
       {"press_fit", "/faces/0/slipping_mm", 0, 1e-9},
+      {"press_fit", "/bodies/0/von_mises_MPa/value", shaft_stress * press_fit_MPa(), 0.01},
+      {"press_fit", "/bodies/1/von_mises_MPa/value", ring_stress() * press_fit_MPa(), 0.01},
       {"roller_on_plate", "/faces/0/pressure_MPa/value", roller_MPa(), 0.02},
       {"roller_on_plate", "/faces/0/closed_mm", 2 * roller_mm(), 0.01},
       {"roller_on_plate", "/supports/0/force_N/1", roller_N, 1e-6},
@@ -177,6 +183,19 @@ INSTANTIATE_TEST_SUITE_P(Of, SolvedPart,
                          ::testing::Values("press_fit", "roller_on_plate", "slope", "bracket",
                                            "crack"),
                          [](const auto& part) { return std::string(part.param); });
+
+// Each round of finer meshes says how well the pressure is known.
+TEST_F(SolveCommand, APressureIsKnownToTheGoalAfterSomeRounds) {
+  const std::string file = (testing::source_folder() / "docs/bodies/press_fit").string();
+  solved(fmt::format("{0}.geo {0}.json --error=0.2%:pressure", file));
+  const std::string last = parse_json(bench_.content("o/part.json"))["case"];
+  const Json answer = parse_json(bench_.content("o/fields/" + last + ".answer.json"));
+  EXPECT_NE(result_.err.find("the largest pressure is known to "), std::string::npos);
+  const Json& pressure = answer["faces"][0]["pressure_MPa"];
+  EXPECT_NEAR(pressure["value"].get<double>() / press_fit_MPa(), 1, 0.002);
+  EXPECT_LE(pressure["in"][1].get<double>() - pressure["in"][0].get<double>(),
+            0.004 * pressure["value"].get<double>());
+}
 
 // Its slip, 4 (1 − ν²)/E σ sin ψ (cos ψ − μ sin ψ) b in the middle.
 TEST_F(SolveCommand, ACrackSlipsByTheClosedForm) {

@@ -68,8 +68,8 @@ TEST_P(OfTooth, TheLargestValuesAreThoseOfTheFields) {
     for (const auto s : corners.colwise())
       largest = std::max(largest, von_mises(s, 0.3 * (s(0) + s(1))));
   }
-  EXPECT_GE(answer_.von_mises.value, largest * (1 - 1e-12));
-  EXPECT_LT(answer_.von_mises.value, largest * (GetParam() > 1 ? 1.2 : 1 + 1e-9));
+  EXPECT_GE(answer_.stress.von_mises.value, largest * (1 - 1e-12));
+  EXPECT_LT(answer_.stress.von_mises.value, largest * (GetParam() > 1 ? 1.2 : 1 + 1e-9));
   ASSERT_TRUE(answer_.displacement_mm);
   EXPECT_GE(answer_.displacement_mm->value, Scene().displacement_mm.norm() * (1 - 1e-9));
 }
@@ -80,7 +80,7 @@ TEST_P(OfTooth, ThePictureHasTheLargestStress) {
   double largest = 0;
   for (std::size_t row = 1; row < lines.size(); ++row)
     largest = std::max(largest, std::stod(split_list(lines[row]).at(3)));
-  EXPECT_NEAR(largest, answer_.von_mises.value, 0.05 * largest);
+  EXPECT_NEAR(largest, answer_.stress.von_mises.value, 0.05 * largest);
 }
 
 // Nine points of each, with what is prescribed there.
@@ -148,7 +148,7 @@ TEST(PartTable, FacesHaveTheirIntervals) {
     Json part = parse_json(R"({"faces": [{"name": "contact:sole", "force_N": [0, 8], "normal_N": -8,
         "tangential_N": 1, "length_mm": 4, "closed_mm": 2, "slipping_mm": 0,
         "normal_in_N": [-8.5, -7.75]}], "supports": [], "von_mises_MPa": {"value": 1, "at_mm": [0, 0]},
-        "principal_MPa": {"value": 1, "at_mm": [0, 0]}, "unbounded": []})");
+        "principal_MPa": {"value": 1, "at_mm": [0, 0]}, "bodies": [], "unbounded": []})");
     part["faces"][0]["pressure_MPa"] = parse_json(pressure);
     return std::get<1>(part_report(Record(), part).front()).at(1);
   };
@@ -165,7 +165,7 @@ TEST(PartTable, SaysThatSlipInOneStepDependsOnThePath) {
       "tangential_N": 1, "length_mm": 4, "closed_mm": 2, "slipping_mm": 1,
       "pressure_MPa": {"value": 6, "at_mm": [1, 0], "is": "not seen"}}], "supports": [],
       "von_mises_MPa": {"value": 1, "at_mm": [0, 0]},
-      "principal_MPa": {"value": 1, "at_mm": [0, 0]}, "unbounded": []})");
+      "principal_MPa": {"value": 1, "at_mm": [0, 0]}, "bodies": [], "unbounded": []})");
   const auto says_so = [&](const Record& record) {
     return testing::contains(text_of(part_report(record, part)), "the path of the load");
   };
@@ -181,10 +181,19 @@ TEST(PartTable, SaysThatSlipInOneStepDependsOnThePath) {
   EXPECT_FALSE(says_so(record));
 }
 
+TEST(PartTable, SeveralBodiesHaveTheirLargestStresses) {
+  const Json part = parse_json(R"({"faces": [], "supports": [],
+      "von_mises_MPa": {"value": 7, "at_mm": [1, 2]}, "principal_MPa": {"value": 8, "at_mm": [1, 2]},
+      "bodies": [{"name": "pin", "von_mises_MPa": {"value": 7, "at_mm": [1, 2], "off": 0.25},
+                  "principal_MPa": {"value": -6, "at_mm": [3, 4]}}], "unbounded": []})");
+  const auto rows = std::get<1>(part_report(Record(), part).front());
+  EXPECT_EQ(rows.at(1), split_list("pin;7 ± 0.25;(1, 2);-6;(3, 4);", ';'));
+}
+
 TEST(PartTable, NamesPlacesOfUnboundedStressByWhatTheyAre) {
   Json part =
       parse_json(R"({"faces": [], "supports": [], "von_mises_MPa": {"value": 7, "at_mm": [1, 2],
-      "off": 0.25}, "principal_MPa": {"value": -3, "at_mm": [0, 0]}, "unbounded": []})");
+      "off": 0.25}, "principal_MPa": {"value": -3, "at_mm": [0, 0]}, "bodies": [], "unbounded": []})");
   const auto report = [&] {
     std::string text;
     for (const auto& line : part_report(Record(), part))
@@ -218,7 +227,7 @@ TEST(PartAnswer, TheLargestStressIsThatAwayFromPlacesWhereItIsUnbounded) {
   for (const SingularPlace& place : answer.unbounded) {
     ++places[place.what];
     EXPECT_NEAR(place.within_mm, (144. - 16) / (48 + 16) / 10, 1e-9);
-    EXPECT_GE((answer.von_mises.at_mm - place.at_mm).norm(), place.within_mm);
+    EXPECT_GE((answer.stress.von_mises.at_mm - place.at_mm).norm(), place.within_mm);
   }
   EXPECT_EQ(places["a re-entrant corner"], 4);
   EXPECT_EQ(places["the end of displacement"], 2);
@@ -231,7 +240,7 @@ TEST(PartAnswer, TheLargestStressIsThatAwayFromPlacesWhereItIsUnbounded) {
       const StressSamples::Third third = samples.third(t, k);
       for (Eigen::Index i = 0; i < third.at_mm.cols(); ++i)
         if (von_mises(*solved.system.problem, t, third.at_mm.col(i), third.stress.col(i)) >
-            answer.von_mises.value * (1 + 1e-12)) {
+            answer.stress.von_mises.value * (1 + 1e-12)) {
           ++larger;
           double nearest = 1e9;
           for (const SingularPlace& place : answer.unbounded)

@@ -254,7 +254,7 @@ TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
       blas_name().find("blis") != std::string::npos)
     GTEST_SKIP() << "BLIS ends the process where it is granted no memory";
   const std::string run = "--method=HYBRID --adapt=0.01%,levels=last --memory-limit=3 ",
-                    note = "note: --adapt=0.01%: not reached for Mesh0/default: HYBRID on ";
+                    note = "note: goal 0.01%: not reached for Mesh0/default: HYBRID on ";
   EXPECT_EQ(adapted(run, "o", 1).size(), 1u);  // what there is is measured
   EXPECT_TRUE(testing::contains(complaint(), note));
   adapted(run + "-- --benchmark_filter=NoSuchCase", "none", 1);

@@ -104,7 +104,7 @@ TEST(AdaptiveLoop, RefinesUntilTheLargestStressIsKnown) {
     const double exact =
         pressure * (outer * outer + inner * inner) / (outer * outer - inner * inner);
     const ContactPicture none = contact_picture(solved.system, solved.hybrid, solved.w);
-    const LargestStress principal = part_files(fields, none).answer.principal;
+    const LargestStress principal = part_files(fields, none).answer.stress.principal;
     EXPECT_NEAR(principal.value, exact, *principal.off_MPa);
   }
 }
