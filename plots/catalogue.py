@@ -53,7 +53,7 @@ METHODS = {
     "BLIND": ("#56B4E9", "<"), "BLIND:SCHUR": ("#2B7DAB", "X", DASHED), "BLIND:SKY": ("#56B4E9", "d", MIXED),
     "BLIND:SCHUR:REFINED": ("#174A66", "h", DOTTED),
     "HYBRID": ("#000000", "P"), "HYBRID:CHOLMOD": ("#555555", "s", DASHED), "HYBRID:MUMPS": ("#555555", "^", MIXED),
-    "HYBRID:CG": ("#CC79A7", "v"),
+    "HYBRID:PDAS": ("#555555", "d", DOTTED), "HYBRID:CG": ("#CC79A7", "v"),
     "HYBRID:k=2": ("#5B2A86", "o"), "HYBRID:k=3": ("#B0307A", "s"), "HYBRID:k=4": ("#E8743B", "^"),
     "P2": ("#C98500", "X"), "P3": ("#8A5A00", "D"), "P4": ("#573300", "*"),
     "EXTERNAL:calculix-mortar": ("#7B4B1E", ">"), "EXTERNAL:calculix-penalty": ("#6B8E00", "p"),

@@ -99,6 +99,7 @@ const std::vector<Method>& methods() {
         METHOD(hybrid),
         METHOD(hybrid_cholmod),
         METHOD(hybrid_mumps),
+        METHOD(hybrid_pdas),
         METHOD(hybrid_cg),
         METHOD(p2),
         METHOD(p3),
@@ -127,7 +128,8 @@ std::vector<std::string> split_method_list(std::string_view list) {
 
 static Method at_degree(const Method& method, int degree) {
   const std::string& name = method.name;
-  const bool has_degrees = name == "HYBRID" || name == "HYBRID:CHOLMOD" || name == "HYBRID:MUMPS";
+  const bool has_degrees = name == "HYBRID" || name == "HYBRID:CHOLMOD" || name == "HYBRID:MUMPS" ||
+                           name == "HYBRID:PDAS";
   return degree == 1 || !has_degrees
              ? method
              : method_of_general_name(name + (name == "HYBRID" ? ":k=" : ",k=") +

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "peers/petsc/rank_rows.hpp"
+#include "solvers/active_sets/rows_check.hpp"
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/two_level/rows_check.hpp"
 
 namespace airybench {
 namespace {

@@ -15,7 +15,7 @@
 #pragma once
 
 #include "peers/petsc/coarse_space.hpp"
-#include "solvers/two_level/active_rows.hpp"
+#include "solvers/active_sets/active_rows.hpp"
 
 namespace airybench {
 

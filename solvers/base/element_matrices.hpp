@@ -33,6 +33,15 @@ Eigen::Matrix<Scalar, 12, 12> from_lower(const Scalar* entry) {
   return whole;
 }
 
+// The same of any size.
+template <typename Scalar>
+Eigen::MatrixX<Scalar> from_lower(const Scalar* entry, int size) {
+  Eigen::MatrixX<Scalar> whole(size, size);
+  for (int j = 0; j < size; ++j)
+    for (int i = j; i < size; ++i) whole(i, j) = whole(j, i) = *entry++;
+  return whole;
+}
+
 template <typename Scalar>
 class ElementMatricesIn {
  public:

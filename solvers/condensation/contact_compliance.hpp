@@ -8,8 +8,8 @@
 // ρ_j = 1/D_jj, up to what friction's cone, as wide as the normal force, moves with ρ_n.
 //
 // Of one material (K_PP⁻¹)_jj is 10 to 14 times too small. But a body is no stiffer than if all of
-// it were of its stiffest material: half the rough diagonal (rough_compliance.hpp) of that serves
-// too.
+// it were of its stiffest material: half the rough diagonal (rough_compliance.hpp) of that, 0.4 of
+// it for higher degrees, serves too.
 #pragma once
 
 #include <unordered_map>
@@ -22,33 +22,37 @@ namespace airybench {
 
 class ContactCompliance {
  public:
-  explicit ContactCompliance(const Problem& problem);
+  explicit ContactCompliance(const Problem& problem, int degree = 1);
   // Whether K_e of the triangle is needed: at a contact edge, or next to a triangle at one.
   bool asks_for(int triangle) const;
   // Every triangle that is asked for, once.
-  void add(int triangle, const ElementMatrices::Matrix& K_e);
-  // Per row of Mesh::boundary, in a column: of the normal and tangential unknowns at start and end
-  // of a contact edge, mm/N; zero elsewhere. Inner edges with one triangle, as of a part of a body,
-  // count as held.
-  Eigen::Matrix4Xd from_below() const;
+  void add(int triangle, const Eigen::Ref<const Eigen::MatrixXd>& K_e);
+  // Per row of Mesh::boundary, in a column: of the normal and tangential unknowns of a contact
+  // edge, from its start on, mm/N; zero elsewhere. Inner edges with one triangle, as of a part of a
+  // body, count as held.
+  Eigen::MatrixXd from_below() const;
 
  private:
   struct Near {
-    Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();  // block of K
+    Eigen::MatrixXd stiffness;  // block of K
     int triangles = 0;
   };
   bool is_contact(int edge) const;
-  std::array<bool, 4> free_unknowns(int edge) const;
+  std::array<bool, 2> free_components(int edge) const;
 
   const Problem& problem_;
-  std::unordered_map<int, int> row_of_edge_;  // of Mesh::boundary
-  std::vector<bool> is_near_;                 // edges of triangles at contact edges
-  std::unordered_map<int, Near> near_;        // these
-  std::unordered_map<int, ElementMatrices::Matrix> at_contact_;  // K_e of those triangles
+  Eigen::Index of_edge_;                                 // unknowns
+  std::unordered_map<int, int> row_of_edge_;             // of Mesh::boundary
+  std::vector<bool> is_near_;                            // edges of triangles at contact edges
+  std::unordered_map<int, Near> near_;                   // these
+  std::unordered_map<int, Eigen::MatrixXd> at_contact_;  // K_e of those triangles
 };
 
 // Of every row of F_C, the larger of both; of_rows: from_below() of the whole boundary.
-Eigen::VectorXd at_contact_points(const Eigen::Matrix4Xd& of_rows, const Problem& problem,
+Eigen::VectorXd at_contact_points(const Eigen::MatrixXd& of_rows, const Problem& problem,
                                   const ContactPoints& contact);
+// Of a whole K.
+Eigen::VectorXd compliance_from_below(const Problem& problem, const ElementMatrices& K,
+                                      const ContactPoints& contact);
 
 }  // namespace airybench

@@ -36,6 +36,7 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
 template struct HybridizedSystemIn<double>;
 template HybridizedSystemIn<double> assemble_hybridized(const Problem&, const ContactPoints&);
 template void set_load_case(const Problem&, HybridizedSystemIn<double>&);
+template PrescribedForces<double> prescribed_forces(const Problem&, const HybridizedSystem&);
 
 template struct HybridizedSystemIn<Wide>;
 template HybridizedSystemIn<Wide> assemble_hybridized(const Problem&, const ContactPoints&);

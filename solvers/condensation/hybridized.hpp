@@ -63,6 +63,16 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
 template <typename Scalar>
 void set_load_case(const Problem& problem, HybridizedSystemIn<Scalar>& system);
 
+// K (ū0 − ū_th) at the unknowns, N, which is not in b any more, and its work on ū0 − ū_th, N mm.
+template <typename Scalar>
+struct PrescribedForces {
+  Eigen::VectorX<Scalar> forces;  // empty: all zero
+  Scalar energy = 0;
+};
+template <typename Scalar>
+PrescribedForces<Scalar> prescribed_forces(const Problem& problem,
+                                           const HybridizedSystemIn<Scalar>& system);
+
 // The stresses that belong to u: computed in Scalar, rounded at the end.
 template <typename Scalar>
 StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,

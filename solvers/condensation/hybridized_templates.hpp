@@ -49,21 +49,31 @@ void element_displacement(const Problem& problem, const HybridizedSystemIn<Scala
   if (system.thermal.cols() > 0) local -= system.thermal.col(t).template cast<Scalar>();
 }
 
-// b −= K (ū0 − ū_th).
 template <typename Scalar>
-void subtract_prescribed(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
-  system.displacement = prescribed_displacements(problem, system.degree());
-  system.thermal = thermal_moments(problem, system.degree());
-  if (system.displacement.cols() == 0 && system.thermal.cols() == 0) return;
+PrescribedForces<Scalar> prescribed_forces(const Problem& problem,
+                                           const HybridizedSystemIn<Scalar>& system) {
+  PrescribedForces<Scalar> prescribed;
+  if (system.displacement.cols() == 0 && system.thermal.cols() == 0) return prescribed;
+  prescribed.forces.setZero(system.K.order);
   Eigen::VectorX<Scalar> u0(system.K.size), f(system.K.size);
   for (int t = 0; t < system.K.count(); ++t) {
     element_displacement<Scalar>(problem, system, {}, t, u0);
     if (u0.isZero(0)) continue;
     system.K.multiply(t, u0.data(), f.data());
+    prescribed.energy += u0.dot(f);
     for (int j = 0; j < system.K.size; ++j)
       if (const int unknown = system.K.unknown[t][j]; unknown != prescribed_unknown)
-        system.b(unknown) -= f(j);
+        prescribed.forces(unknown) += f(j);
   }
+  return prescribed;
+}
+
+template <typename Scalar>
+void subtract_prescribed(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
+  system.displacement = prescribed_displacements(problem, system.degree());
+  system.thermal = thermal_moments(problem, system.degree());
+  const PrescribedForces<Scalar> prescribed = prescribed_forces(problem, system);
+  if (prescribed.forces.size() > 0) system.b -= prescribed.forces;
 }
 
 template <typename Scalar>

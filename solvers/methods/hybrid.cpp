@@ -1,10 +1,12 @@
 // HYBRID: hybridized equilibrium elements, multifrontal Cholesky. HYBRID:CHOLMOD, HYBRID:MUMPS: the
-// same K by a library's factor. HYBRID:k=2 and more, HYBRID:CHOLMOD,k=2: stresses of that degree.
+// same K by a library's factor. HYBRID:PDAS: active sets on K itself. HYBRID:k=2 and more,
+// HYBRID:CHOLMOD,k=2: stresses of that degree.
 #include "solvers/condensation/hybridized.hpp"
 
 #include <utility>
 
 #include "assembly/elements/equilibrium_element.hpp"
+#include "solvers/active_sets/active_set_solve.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/finish.hpp"
 #include "solvers/condensation/library_stiffness.hpp"
@@ -37,20 +39,14 @@ void finish_hybridized(const ContactSystem& given, const RunControl& control, Hy
       solution);
 }
 
-using MakeFactor = std::unique_ptr<StiffnessFactor> (*)(const HybridizedSystem& system);
-
 template <typename Factor>
-std::unique_ptr<StiffnessFactor> make_factor(const HybridizedSystem& system) {
-  return std::make_unique<Factor>(system.K, system.n_c);
-}
-
-Solution solve_hybridized(const ContactSystem& given, const RunControl& control, MakeFactor make) {
+Solution solve_with(const ContactSystem& given, const RunControl& control) {
   const auto body = std::make_shared<HybridizedBody>();
   HybridizedSystem& system = body->system;
   Solution solution;
   run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix, [&] {
     system = assemble_hybridized(*given.problem, given.contact);
-    body->factor = make(system);
+    body->factor = std::make_unique<Factor>(system.K, system.n_c);
     const bool has_its_own = body->factor->matrix_bytes() > 0;
     if (has_its_own && !control.keep_body && !control.condition) system.K = {};
   });
@@ -66,30 +62,51 @@ Solution solve_hybridized(const ContactSystem& given, const RunControl& control,
   return solution;
 }
 
-struct Factors {
+// Of a body with many contact points, unless something else is asked of D: its cost grows with
+// n_c³.
+bool is_for_active_sets(const ContactPoints& contact, const RunControl& control) {
+  constexpr int many = 3000;
+  const ContactOptions& law = control.contact;
+  return contact.size() > many && contact.free.is_empty() && control.stop == Stop::target &&
+         !control.condition && law.solver == ContactSolver::newton && !law.by &&
+         law.max_iterations == ContactOptions().max_iterations;
+}
+
+Solution solve_hybrid(const ContactSystem& given, const RunControl& control) {
+  constexpr int most_for_D = 8000;
+  if (is_for_active_sets(given.contact, control)) {
+    Solution solution = solve_by_active_sets(given, control);
+    if (solution.status == Status::ok || given.contact.size() > most_for_D) return solution;
+  }
+  return solve_with<MultifrontalStiffness>(given, control);
+}
+
+struct Variant {
   const char* name;  // behind the colon
   const char* summary;
-  MakeFactor make;
+  Solution (*solve)(const ContactSystem&, const RunControl&);
 };
-constexpr Factors factors[] = {
+constexpr Variant variants[] = {
     {"", "hybridized equilibrium elements, multifrontal Cholesky; the reference of all errors",
-     make_factor<MultifrontalStiffness>},
-    {"CHOLMOD", "HYBRID's matrix by CHOLMOD's supernodal Cholesky", make_factor<CholmodStiffness>},
-    {"MUMPS", "HYBRID's matrix by MUMPS, D from its Schur complement",
-     make_factor<MumpsStiffness>}};
+     solve_hybrid},
+    {"CHOLMOD", "HYBRID's matrix by CHOLMOD's supernodal Cholesky", solve_with<CholmodStiffness>},
+    {"MUMPS", "HYBRID's matrix by MUMPS, D from its Schur complement", solve_with<MumpsStiffness>},
+    {"PDAS", "primal-dual active sets on HYBRID's matrix, factorised under each; no D",
+     solve_by_active_sets}};
 
-Method hybrid_method(const Factors& of, int degree = 1) {
+Method hybrid_method(const Variant& of, int degree = 1) {
   const std::string first = of.name;
   Method method = {.name = "HYBRID" + (first.empty() ? "" : ":" + first),
                    .family = "HYBRID",
                    .summary = of.summary,
                    .unknowns = Unknowns::edge_displacements,
                    .degree = degree,
-                   .solve =
-                       [make = of.make](const ContactSystem& given, const RunControl& control) {
-                         return solve_hybridized(given, control, make);
-                       },
+                   .solve = of.solve,
                    .knob = AccuracyKnob::contact_sweeps};
+  if (first == "PDAS") {
+    method.stages = {Stage::factor, Stage::contact, Stage::recover, Stage::check};
+    method.knob = AccuracyKnob::none;
+  }
   if (degree > 1) {
     method.name += (first.empty() ? ":k=" : ",k=") + std::to_string(degree);
     method.summary = "stresses of degree " + std::to_string(degree) + ": " + method.summary;
@@ -99,20 +116,21 @@ Method hybrid_method(const Factors& of, int degree = 1) {
 
 }  // namespace
 
-Method hybrid() { return hybrid_method(factors[0]); }
-Method hybrid_cholmod() { return hybrid_method(factors[1]); }
-Method hybrid_mumps() { return hybrid_method(factors[2]); }
+Method hybrid() { return hybrid_method(variants[0]); }
+Method hybrid_cholmod() { return hybrid_method(variants[1]); }
+Method hybrid_mumps() { return hybrid_method(variants[2]); }
+Method hybrid_pdas() { return hybrid_method(variants[3]); }
 
 Method hybrid_of_degree(GeneralName name) {
   const int degree = name.whole("k", 1, 1, highest_stress_degree);
   name.refuse_rest("k");
-  for (const Factors& of : factors)
+  for (const Variant& of : variants)
     if (name.first() == of.name) {
       Method method = hybrid_method(of, degree);
       if (method.name != name.name()) method.general_name = std::exchange(method.name, name.name());
       return method;
     }
-  name.refuse("'" + name.first() + "' (valid: CHOLMOD, MUMPS, k=<degree>)");
+  name.refuse("'" + name.first() + "' (valid: CHOLMOD, MUMPS, PDAS, k=<degree>)");
 }
 
 }  // namespace airybench

@@ -2,16 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <sstream>
 
 #include "assembly/problem/load_scale.hpp"
+#include "solvers/active_sets/rows_check.hpp"
+#include "solvers/active_sets/rows_notes.hpp"
 #include "solvers/base/kept_body.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/contact_compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/free_body_contact.hpp"
 #include "solvers/direct/factor_counts.hpp"
-#include "solvers/two_level/rows_check.hpp"
 #include "solvers/two_level/slot_rows.hpp"
 
 namespace airybench {
@@ -25,35 +25,11 @@ struct KrylovBody {
   std::size_t coarse_matrix_bytes = 0;  // gone when the two levels are there
 };
 
-void note_rows(const RowsResult& rows, const RunControl& control, Solution& solution) {
-  solution.status = Status::ok;
-  solution.message.clear();
-  solution.linear_iterations = rows.iterations;
-  if (control.histories)
-    solution.histories.push_back({"relative error of the linear system per step", rows.history});
-  if (rows.converged) return;
-  std::ostringstream message;
-  message << "natural map residual " << rows.natural_map_residual << ", linear error "
-          << rows.linear_error << " after " << rows.steps << " active sets and " << rows.iterations
-          << " linear iterations (tolerance " << control.tolerance << ")";
-  stop_unconverged("active sets on the hybridized matrix",
-                   !std::isnan(rows.natural_map_residual + rows.linear_error), message.str(),
-                   solution);
-}
-
 void note_parameters(const CoarseDisplacements& coarse, Solution& solution) {
   solution.parameters = std::string("coarse=") +
                         (coarse.kind() == CoarseKind::linear ? "linear" : "per-edge") + ", " +
                         std::to_string(coarse.unknowns()) + " unknowns" +
                         (coarse.factor().rounded() ? ", factor rounded" : "");
-}
-
-Eigen::VectorXd compliance_from_below(const Problem& problem, const ElementMatrices& K,
-                                      const ContactPoints& contact) {
-  ContactCompliance near_contact(problem);
-  for (int t = 0; t < K.count(); ++t)
-    if (near_contact.asks_for(t)) near_contact.add(t, from_lower(K.lower[t].data()));
-  return at_contact_points(near_contact.from_below(), problem, contact);
 }
 
 // K is factorised nowhere: what is left of it is `matrix`, unless other loads come.
@@ -120,11 +96,7 @@ void finish_iteratively(const ContactSystem& given, const RunControl& control, K
     return solve_contact_on_rows(slots, load_scale(problem).energy_norm,
                                  {control.tolerance, control.target_error / 1000});
   });
-  note_rows(rows, control, solution);
-  if (has_contact) {
-    solution.contact_iterations = rows.sweeps;
-    solution.newton_steps = rows.steps;
-  }
+  note_rows(rows, given.contact, control, control.tolerance, solution);
   count_storage(body, slots, rows, solution);
   slots.drop_space();
   HybridizedAnswer answer;

@@ -1,7 +1,7 @@
 // The rows that active sets act on (active_rows.hpp) with K in blocks, GMRES and two levels.
 #pragma once
 
-#include "solvers/two_level/active_rows.hpp"
+#include "solvers/active_sets/active_rows.hpp"
 #include "solvers/two_level/two_levels.hpp"
 
 namespace airybench {

@@ -42,7 +42,7 @@ ROOMS = {
 
 # Inside solvers/: what a folder may use besides itself and base; "table": the files of no folder.
 PIECES = ["direct", "preconditioners", "krylov", "contact", "condensation", "uzawa", "displacement",
-          "two_level"]
+          "active_sets", "two_level"]
 FOLDERS_OF_SOLVERS = {
     "base": [],
     "direct": [],
@@ -52,7 +52,8 @@ FOLDERS_OF_SOLVERS = {
     "condensation": ["direct", "preconditioners", "krylov", "contact"],
     "uzawa": ["direct", "contact", "condensation"],
     "displacement": [],
-    "two_level": ["direct", "krylov", "contact", "condensation"],
+    "active_sets": ["direct", "krylov", "contact", "condensation"],
+    "two_level": ["direct", "krylov", "contact", "condensation", "active_sets"],
     "loading": ["contact"],
     "names": ["preconditioners", "condensation"],
     "methods": [*PIECES, "names"],

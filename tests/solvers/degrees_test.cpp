@@ -208,7 +208,7 @@ TEST(Degrees, AreRefusedWhereTheyAreNot) {
   for (const auto& [options, wrong, valid] : std::vector<std::array<std::string, 3>>{
            {"k=" + above, "k='" + above + "'", allowed},
            {"k=1.5", "k='1.5'", allowed},
-           {"CG,k=2", "'CG'", "CHOLMOD, MUMPS, k=<degree>"},
+           {"CG,k=2", "'CG'", "CHOLMOD, MUMPS, PDAS, k=<degree>"},
            {"k=2,refine=yes", "unknown option 'refine'", "(valid: k)"}}) {
     const std::string name = "HYBRID:" + options;
     testing::expect_named(

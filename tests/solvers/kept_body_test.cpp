@@ -47,10 +47,10 @@ class KeptBody : public ::testing::TestWithParam<Method> {
 };
 INSTANTIATE_TEST_SUITE_P(
     Table, KeptBody,
-    ::testing::ValuesIn(
-        select_methods("HYBRID,HYBRID:CHOLMOD,HYBRID:MUMPS,HYBRID:CG,P2,P4,3STEPD,3STEPD:REFINED,"
-                       "3STEPD:FILE,3STEPD:LEAN,3STEPD:CHOLMOD,BLIND,BLIND:SKY,BLIND:SCHUR,BLIND:"
-                       "SCHUR:REFINED,ALM:AUTO")),
+    ::testing::ValuesIn(select_methods(
+        "HYBRID,HYBRID:CHOLMOD,HYBRID:MUMPS,HYBRID:PDAS,HYBRID:CG,P2,P4,3STEPD,3STEPD:REFINED,"
+        "3STEPD:FILE,3STEPD:LEAN,3STEPD:CHOLMOD,BLIND,BLIND:SKY,BLIND:SCHUR,BLIND:"
+        "SCHUR:REFINED,ALM:AUTO")),
     testing::readable);
 
 // ALM:AUTO keeps its factor, HYBRID:CG both levels: the iterations are every load case's own.

@@ -18,9 +18,9 @@ using Eigen::Vector2d;
 using Solved = testing::SolvedScene;
 using testing::ShrinkFit;
 constexpr double alpha = 12e-6;  // 1/K
-const char* const all_methods[] = {"HYBRID", "HYBRID:k=2",   "HYBRID:k=3",    "HYBRID:CG",
-                                   "P2",     "P3",           "3STEPD",        "BLIND:SCHUR",
-                                   "SDTIC3", "HYBRID:MUMPS", "3STEPD:REFINED"};
+const char* const all_methods[] = {"HYBRID",      "HYBRID:k=2", "HYBRID:k=3",   "HYBRID:CG",
+                                   "HYBRID:PDAS", "P2",         "P3",           "3STEPD",
+                                   "BLIND:SCHUR", "SDTIC3",     "HYBRID:MUMPS", "3STEPD:REFINED"};
 
 LinearValue<double> uniform(double temperature_K) { return {{temperature_K, temperature_K}}; }
 

@@ -59,7 +59,7 @@ TEST(TwoBodies, AllMethodsAgree) {
       const Solved hybrid(scene, mesh, "HYBRID");
       const Reference reference = compute_reference(hybrid.system);
       for (const auto& [names, allowed] :
-           {std::pair("HYBRID,HYBRID:CHOLMOD,HYBRID:MUMPS", 1e-10),
+           {std::pair("HYBRID,HYBRID:CHOLMOD,HYBRID:MUMPS,HYBRID:PDAS", 1e-10),
             {"3STEPD:REFINED,BLIND:SCHUR:REFINED", 1e-12},
             {"3STEPD,3STEPD:CHOLMOD,SSKY,BLIND,BLIND:SCHUR,BLIND:SKY", 1e-8},
             {"3STEPCG3,SDTIC3,ALM:AUTO", 1e-6}})

@@ -10,7 +10,7 @@ namespace {
 
 const std::string why =
     "a body with 1 hole needs a multi-valued Airy function (methods without one: HYBRID, "
-    "HYBRID:CHOLMOD, HYBRID:MUMPS, HYBRID:CG, P2, P3, P4)";
+    "HYBRID:CHOLMOD, HYBRID:MUMPS, HYBRID:PDAS, HYBRID:CG, P2, P3, P4)";
 
 class HolesCommand : public ::testing::Test {
  protected:

@@ -227,8 +227,9 @@ class MemoryRun : public ::testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun,
                          ::testing::Values("3STEPD", "3STEPD:CHOLMOD", "3STEPD:LEAN", "BLIND",
                                            "BLIND:SCHUR", "BLIND:SKY", "HYBRID", "HYBRID:CHOLMOD",
-                                           "HYBRID:MUMPS", "3STEPCG:DTIC3", "3STEPCG:FLIC2",
-                                           "SYMMLQ:SKY", "ALM:r=20,rho=20", "ALM:AUTO"),
+                                           "HYBRID:MUMPS", "HYBRID:PDAS", "3STEPCG:DTIC3",
+                                           "3STEPCG:FLIC2", "SYMMLQ:SKY", "ALM:r=20,rho=20",
+                                           "ALM:AUTO"),
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST(HeapProbe, AssemblyThatIsRefusedMemoryIsOutOfMemory) {

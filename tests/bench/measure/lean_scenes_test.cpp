@@ -191,8 +191,12 @@ TEST_P(LeanScenes, TakeNoMoreHeapAndNoMoreAllocations) {
     // Without friction the tangential rows move to K_FF: its sum, copy and factor are larger.
     const std::int64_t moved =
         three_step ? 8 * std::max<std::int64_t>(squared(lean) - squared(with), 0) : 0;
+    // What no law holds stays in the factor.
+    const bool by_laws = GetParam().name == "HYBRID:PDAS";
+    const std::int64_t held = by_laws ? with.peak_bytes / 50 : 0;
     EXPECT_LE(lean.blocks_bytes, with.blocks_bytes + rounding) << scene.name;
-    EXPECT_LE(lean.peak_bytes, with.peak_bytes + 3 * moved + of_mumps(GetParam(), with) + rounding)
+    EXPECT_LE(lean.peak_bytes,
+              with.peak_bytes + 3 * moved + held + of_mumps(GetParam(), with) + rounding)
         << scene.name;
     // Each asking of the contact law, each growth of a history, each step of a refinement
     // allocates, and the more the more points are closed: where other forces need more of them,
@@ -207,7 +211,8 @@ TEST_P(LeanScenes, TakeNoMoreHeapAndNoMoreAllocations) {
         lean.solution.uzawa_iterations <= with.solution.uzawa_iterations) {
       EXPECT_LE(lean.allocations, with.allocations + 1) << scene.name;
     }
-    EXPECT_LE(matrix_bytes(lean.solution), matrix_bytes(with.solution) + moved) << scene.name;
+    EXPECT_LE(matrix_bytes(lean.solution), matrix_bytes(with.solution) + moved + held)
+        << scene.name;
   }
 }
 

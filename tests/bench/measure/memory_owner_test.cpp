@@ -215,10 +215,10 @@ class CountedMemory : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Methods, CountedMemory,
                          ::testing::Values("3STEPD", "3STEPD:REFINED", "3STEPD:FILE", "3STEPD:LEAN",
                                            "3STEPD:CHOLMOD", "BLIND", "BLIND:SCHUR", "BLIND:SKY",
-                                           "HYBRID", "HYBRID:CHOLMOD", "HYBRID:MUMPS", "HYBRID:CG",
-                                           "P2", "3STEPCG:DTIC3", "3STEPCG:FLIC2", "3STEPCG:SKY",
-                                           "SYMMLQ:DTIC3", "SYMMLQ:SKY", "ALM:r=20,rho=20",
-                                           "ALM:AUTO"),
+                                           "HYBRID", "HYBRID:CHOLMOD", "HYBRID:MUMPS",
+                                           "HYBRID:PDAS", "HYBRID:CG", "P2", "3STEPCG:DTIC3",
+                                           "3STEPCG:FLIC2", "3STEPCG:SKY", "SYMMLQ:DTIC3",
+                                           "SYMMLQ:SKY", "ALM:r=20,rho=20", "ALM:AUTO"),
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST_P(CountedMemory, IsWhatIsMeasured) {

@@ -30,7 +30,7 @@ constexpr int scenes = testing::sanitized ? 4 : 40;
 std::vector<Method> methods(int number) {
   static const std::vector<Method> direct = select_methods(
       "3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,BLIND:SKY,HYBRID,HYBRID:CHOLMOD,HYBRID:MUMPS,HYBRID:CG,"
-      "P2");
+      "HYBRID:PDAS,P2");
   static const std::vector<Method> iterative = select_methods(
       "SSKY,ALM:r=20,rho=20,3STEPCG:DTIC6,SYMMLQ:DTIC6,3STEPCG:DTIC3,SDTIC3,3STEPCG:FLIC2,"
       "SYMMLQ:FLIC5,3STEPD:REFINED,ALM:AUTO");

@@ -17,17 +17,19 @@
 
 namespace airybench {
 
-// The system that active sets act on, four slots per edge, and what solves it: slot_rows.hpp. Where
+// The system that active sets act on, and what solves it: slot_rows.hpp, factored_rows.hpp. Where
 // processes share a body, a vector has the slots of one of them, and dot() and of_contact() are
 // those of all.
 class ContactRows {
  public:
   // compliance: rough, of every row of F_C. condition: √cond(M⁻¹K), about.
-  ContactRows(const ContactPoints& points, Eigen::VectorXd rough_compliance, double root_condition)
-      : contact(points), compliance(std::move(rough_compliance)), condition(root_condition) {}
+  ContactRows(ContactPoints points, Eigen::VectorXd rough_compliance, double root_condition)
+      : contact(std::move(points)),
+        compliance(std::move(rough_compliance)),
+        condition(root_condition) {}
   virtual ~ContactRows() = default;
 
-  const ContactPoints& contact;
+  const ContactPoints contact;  // joined (paired_points.hpp)
   Eigen::VectorXd compliance;
   double condition;
   double next_target = 0;  // of a target for the linear error under laws that have settled
@@ -46,7 +48,12 @@ class ContactRows {
   // condition · √(r·M⁻¹r) of the r that a solve has left: of what is wrong with x, in the energy
   // norm, at most. measured: of this r, if a recurrence is not to be trusted.
   virtual double error_left(const GmresResult& solve, const Eigen::VectorXd& r, bool measured) = 0;
-  virtual Eigen::VectorXd of_contact(const Eigen::VectorXd& x) const = 0;  // in the rows of F_C
+  // Displacements in the rows of F_C, of a pair the sum; the forces that hold them, of those that u
+  // leaves.
+  virtual Eigen::VectorXd of_contact(const Eigen::VectorXd& x) const = 0;
+  virtual Eigen::VectorXd reactions(const Eigen::VectorXd& unbalanced) const {
+    return -of_contact(unbalanced);
+  }
   virtual void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const = 0;  // y = K x
   virtual double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const = 0;
   virtual double norm_from_below(const Eigen::VectorXd& F_C) = 0;  // √(F·M⁻¹F) ≤ ‖F‖_D

@@ -1,4 +1,4 @@
-#include "solvers/two_level/active_rows.hpp"
+#include "solvers/active_sets/active_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +88,7 @@ class RowsNewton {
 
   // Forces, natural map and the laws that follow; whether these change.
   bool choose_laws() {
-    now_.F_C = forces_under(rows_.contact, now_.laws, -rows_.of_contact(unbalanced_));
+    now_.F_C = forces_under(rows_.contact, now_.laws, rows_.reactions(unbalanced_));
     if (rows_.contact.count == 0) return false;
     LawChoice::Next next = choice_.after(rows_.contact, rows_.compliance, now_.laws, now_.F_C,
                                          rows_.of_contact(now_.u), options_.tolerance);

@@ -1,4 +1,4 @@
-#include "solvers/two_level/rows_check.hpp"
+#include "solvers/active_sets/rows_check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -19,8 +19,8 @@
 #pragma once
 
 #include "assembly/problem/load_scale.hpp"
+#include "solvers/active_sets/active_rows.hpp"
 #include "solvers/condensation/stiffness_check.hpp"
-#include "solvers/two_level/active_rows.hpp"
 
 namespace airybench {
 

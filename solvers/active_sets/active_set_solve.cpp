@@ -1,0 +1,91 @@
+#include "solvers/active_sets/active_set_solve.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "assembly/problem/load_scale.hpp"
+#include "solvers/active_sets/factored_rows.hpp"
+#include "solvers/active_sets/rows_check.hpp"
+#include "solvers/active_sets/rows_notes.hpp"
+#include "solvers/base/kept_body.hpp"
+#include "solvers/condensation/contact_compliance.hpp"
+#include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/free_body_contact.hpp"
+#include "solvers/contact/paired_points.hpp"
+#include "solvers/direct/factor_counts.hpp"
+
+namespace airybench {
+namespace {
+
+struct ActiveSetBody {
+  HybridizedSystem system;
+  Eigen::VectorXd compliance;  // the diagonal of D from below
+};
+
+void finish_by_active_sets(const ContactSystem& given, const RunControl& control,
+                           ActiveSetBody& body, Solution& solution) {
+  const Problem& problem = *given.problem;
+  HybridizedSystem& system = body.system;
+  const double tolerance = control.contact.tolerance;
+  FactoredRows rows(problem, given.contact, system, control.contact.start, control.deadline);
+  const bool has_contact = given.contact.count > 0;
+  RowsResult found = run_stage(
+      solution.times, has_contact ? Stage::contact : Stage::factor, MemoryOwner::iteration, [&] {
+        return solve_contact_on_rows(rows, load_scale(problem).energy_norm,
+                                     {tolerance, control.target_error / 1000});
+      });
+  note_rows(found, given.contact, control, tolerance, solution);
+  solution.parameters = "active sets on K";
+  count_factor(rows.factor(), solution);
+  solution.storage[MemoryOwner::system_matrix] = system.bytes();
+  HybridizedAnswer answer;
+  const Eigen::VectorXd F = project_on_coulomb(rows.contact, found.F_C);
+  run_stage(solution.times, Stage::recover, MemoryOwner::answer, [&] {
+    answer = recover_stresses(problem, system, found.u);
+    solution.F_C = at_both(given.contact, F);
+    solution.contact_displacement = found.u.tail(system.n_c);
+    solution.stress = std::move(answer.stress);
+    solution.unknowns =
+        EdgeDisplacements{edge_moments(problem, system.unknown, system.displacement, found.u)};
+  });
+  // Else the check's own solves would not end either.
+  if (found.converged)
+    run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
+      answer.unbalanced.r.tail(system.n_c) += solution.F_C;
+      const double largest_r = answer.unbalanced.r.lpNorm<Eigen::Infinity>();
+      const double estimate = rows_error(rows, std::move(answer.unbalanced),
+                                         {found.laws, F, rows.of_contact(found.u), body.compliance,
+                                          std::sqrt(stress_norm_squared(problem, solution.stress)),
+                                          largest_r, load_scale(problem)},
+                                         *solution.linear_iterations);
+      judge_by_own_estimate(estimate, control, solution);
+    });
+  solution.storage[MemoryOwner::iteration] = rows.bytes() + found.bytes;
+}
+
+}  // namespace
+
+Solution solve_by_active_sets(const ContactSystem& given, const RunControl& control) {
+  refuse_free_bodies(given.contact);
+  const auto body = std::make_shared<ActiveSetBody>();
+  Solution solution;
+  run_stage(solution.times, Stage::factor, MemoryOwner::system_matrix, [&] {
+    body->system = assemble_hybridized(*given.problem, given.contact);
+    body->compliance = of_both(
+        given.contact, compliance_from_below(*given.problem, body->system.K, given.contact));
+  });
+  finish_by_active_sets(given, control, *body, solution);
+  if (control.keep_body)
+    solution.solve_again =
+        for_the_same_body(given, [body](const ContactSystem& load_case, const RunControl& again) {
+          Solution other;
+          run_stage(other.times, Stage::contact, MemoryOwner::system_matrix,
+                    [&] { set_load_case(*load_case.problem, body->system); });
+          finish_by_active_sets(load_case, again, *body, other);
+          return other;
+        });
+  return solution;
+}
+
+}  // namespace airybench
