@@ -24,10 +24,10 @@ Method condensed_contact();
 //   3STEPCG:<preconditioner>[,refine=yes]
 //   SYMMLQ:<preconditioner>[,refine=yes]
 //   ALM:r=<r>,rho=<rho>
-//   HYBRID:k=<degree>, HYBRID:CHOLMOD,k=<degree>, HYBRID:MUMPS,k=<degree>
-// others: stand behind the table's. degree: of the stresses of HYBRID, HYBRID:CHOLMOD and
-// HYBRID:MUMPS, unless a name states its own ("HYBRID:k=1"). Throws std::invalid_argument: one line
-// with the item that matches nothing and what is valid.
+//   HYBRID:k=<degree>, and of HYBRID:CHOLMOD, HYBRID:MUMPS, HYBRID:PDAS: HYBRID:MUMPS,k=<degree>
+// others: stand behind the table's. degree: of the stresses of these, unless a name states its own
+// ("HYBRID:k=1"). Throws std::invalid_argument: one line with the item that matches nothing and
+// what is valid.
 std::vector<Method> select_methods(std::string_view selection,
                                    const std::vector<Method>& others = {}, int degree = 1);
 

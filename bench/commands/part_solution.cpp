@@ -117,7 +117,8 @@ std::optional<SolvedPart> solved_part(const PosedScene& start, Options options,
     rounds.push_back({error, *width});
     if (rounds.size() > 2)
       if (const Round& before = rounds[rounds.size() - 3];
-          *width > before.width * std::pow(error / before.error, min_order)) {
+          std::min(*width, rounds[rounds.size() - 2].width) >
+          before.width * std::pow(error / before.error, min_order)) {
         answer->short_of = fmt::format(
             "the interval no longer narrows: {:.3g} % at a total error of {:.3g} %, {:.3g} % at "
             "{:.3g} %",

@@ -8,6 +8,7 @@
 
 #include "assembly/problem/load_scale.hpp"
 #include "bench/measure/remarks.hpp"
+#include "solvers/active_sets/active_set_solve.hpp"
 #include "verify/geometry_error.hpp"
 
 namespace airybench {
@@ -27,8 +28,6 @@ Judge::Judge(const PosedProblem& problem, const CaseSettings& common, const Left
       common_(common),
       discretisation_left_out_(left_out.discretisation) {
   no_references_ = problem_ ? left_out.reference : "a problem without a body";
-  if (no_references_.empty() && is_too_large_for_reference())
-    no_references_ = fmt::format("no reference above n_phi = {}", largest_with_reference);
 }
 
 void Judge::prepare(const Method& method) {
@@ -37,8 +36,15 @@ void Judge::prepare(const Method& method) {
   half_steps(method.degree);
 }
 
-bool Judge::is_too_large_for_reference() const {
-  return mesh_sizes(problem_->mesh).n_phi > largest_with_reference;
+std::string Judge::too_large_for_reference(int degree) const {
+  if (mesh_sizes(problem_->mesh).n_phi > largest_with_reference)
+    return fmt::format("no reference above n_phi = {}", largest_with_reference);
+  if (has_too_many_contact_points(degree))
+    return fmt::format("no reference above n_c = {}", max_contact_unknowns_of_D);
+  return "";
+}
+bool Judge::has_too_many_contact_points(int degree) const {
+  return contact_points(*problem_, degree).size() > max_contact_unknowns_of_D;
 }
 
 const ReferencePath& Judge::references(int degree) {
@@ -46,6 +52,7 @@ const ReferencePath& Judge::references(int degree) {
   ReferencePath& path = found->second;
   if (!is_new) return path;
   path.missing = no_references_;
+  if (path.missing.empty()) path.missing = too_large_for_reference(degree);
   if (!path.missing.empty()) return path;
   const ActivityScope scope(board_, Activity::reference);
   try {
@@ -196,7 +203,8 @@ Verdict Judge::judge_method_error(const Case& asked, Verdict so_far, CaseResult&
                                     prefix_of(other - steps.begin()),
                                     other->verification.error_stress.value_or(0))};
   }
-  if (v.stress_of_moments_off && is_too_large_for_reference() && solution.error_estimate)
+  if (v.stress_of_moments_off && solution.error_estimate &&
+      !too_large_for_reference(method.degree).empty())
     return {Status::ok,
             fmt::format("{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law "
                         "and that its stresses are those of its displacements are checked",

@@ -48,7 +48,8 @@ class Judge {
     DisplacementField u;
   };
 
-  bool is_too_large_for_reference() const;
+  std::string too_large_for_reference(int degree) const;  // empty: it is not
+  bool has_too_many_contact_points(int degree) const;     // for a reference
   double reference_error_at_most() const { return common_.target_error / 10; }
   // References belong to a degree of the stresses.
   const ReferencePath& references(int degree);

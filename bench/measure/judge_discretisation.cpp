@@ -33,8 +33,13 @@ bool Judge::wants_intervals(int degree) const { return degree > 1 || common_.int
 
 const Judge::Discretisation* Judge::discretisation(Bound bound, int degree) {
   const auto [found, is_new] = discretisation_.try_emplace({bound, degree});
-  if (is_new && reference(degree_of_stresses(bound, degree)) != nullptr &&
-      discretisation_left_out_.empty())
+  const int of_stresses = degree_of_stresses(bound, degree);
+  // Stresses of many contact points are at hand all the same.
+  const bool has_stresses = reference(of_stresses) != nullptr ||
+                            (bound == Bound::recovery && problem_ && no_references_.empty() &&
+                             mesh_sizes(problem_->mesh).n_phi <= largest_with_reference &&
+                             has_too_many_contact_points(of_stresses));
+  if (is_new && has_stresses && discretisation_left_out_.empty())
     found->second = compute_discretisation(bound, degree);
   return found->second ? &*found->second : nullptr;
 }

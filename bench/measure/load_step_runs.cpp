@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "solvers/active_sets/active_set_solve.hpp"
 #include "solvers/base/dense_products.hpp"
 #include "solvers/methods.hpp"
 #include "support/seconds_since.hpp"
@@ -75,6 +76,13 @@ void hand_over(Solution& path, Solution& last) {
   for_each(std::tuple_cat(sums, maxima), [&](auto member) { last.*member = path.*member; });
 }
 
+// Of many contact points by D alone the contact law takes minutes; HYBRID goes another way.
+Eigen::VectorXd first_forces(const ContactSystem& system, const Eigen::VectorXd& start) {
+  if (start.size() > 0 || system.n_c() <= many_contact_unknowns || !system.contact.free.is_empty())
+    return start;
+  return run(select_methods(hybrid_of_degree(system.degree)).front(), system, {}).F_C;
+}
+
 }  // namespace
 
 void add_times(const StageTimes& more, StageTimes& sum) {
@@ -98,7 +106,7 @@ ReferencePath references_along(const std::shared_ptr<const Problem>& first, int 
                                double error_at_most) {
   ReferencePath path;
   const Solve solve = [&](const ContactSystem& system, const RunControl& control) {
-    path.steps.push_back(compute_reference(system, control.contact.start));
+    path.steps.push_back(compute_reference(system, first_forces(system, control.contact.start)));
     const double estimate = path.steps.back().error_estimate;
     Solution answer = answer_of(path.steps.back());
     const double residual = *verify(system, answer, nullptr).equilibrium_residual;

@@ -50,7 +50,8 @@ class PartReader {
     const std::vector<LargestStresses> of_bodies = judged_largest_stresses(w);
     answer.stress = largest_of(of_bodies);
     for (std::size_t k = 0; k < of_bodies.size() && of_bodies.size() > 1; ++k)
-      answer.bodies.emplace_back(mesh_.body_names[k], of_bodies[k]);
+      if (of_bodies[k].von_mises.triangle >= 0)
+        answer.bodies.emplace_back(mesh_.body_names[k], of_bodies[k]);
     answer.unbounded = singular_;
     return answer;
   }
@@ -127,6 +128,7 @@ class PartReader {
       const auto estimate = [&](LargestStress& largest, const LargestStress& displaced,
                                 int component, double factor) {
         const int t = largest.triangle;
+        if (t < 0) return;
         const Eigen::Matrix3d A = elasticity_of(problem_.compliance_of(t));
         largest.off_MPa = twice_estimated_error_MPa(
             problem_, *error_, t, factor * A(component, component),

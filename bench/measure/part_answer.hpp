@@ -40,7 +40,7 @@ struct SupportAnswer {
 };
 
 struct LargestStress : ValueAt {  // MPa
-  int triangle = 0;
+  int triangle = -1;              // −1: no stress
   // An estimate of what it is off by, as that of the largest pressure (contact_intervals.hpp):
   // twice the sum of what the largest stress of the displacements differs by, of the mean error
   // that the triangle's e_T² allows, and of what errors elsewhere change.
@@ -58,7 +58,8 @@ struct PartAnswer {
   std::optional<ValueAt> displacement_mm;
   std::string free_motion;  // that nothing determines, nor the displacement; empty: there is none
   LargestStresses stress;
-  std::vector<std::pair<std::string, LargestStresses>> bodies;  // by name; one alone is left out
+  // By name; one alone, and those without stress, are left out.
+  std::vector<std::pair<std::string, LargestStresses>> bodies;
   std::vector<SingularPlace> unbounded;
 };
 

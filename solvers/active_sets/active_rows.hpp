@@ -41,7 +41,7 @@ class ContactRows {
   virtual void set(const std::vector<PointLaw>& laws) = 0;
   // Moves held contact slots to where they are held.
   virtual void move_to_gap(Eigen::VectorXd& u) const = 0;
-  // The forces b − K u that u leaves; returns (u + ū0)ᵀ K (u + ū0).
+  // The forces b − K u that u leaves; returns wᵀ K w, w = u + ū0 − ū_th.
   virtual double measure(const Eigen::VectorXd& u, Eigen::VectorXd& unbalanced) = 0;
   // x with (reduced K) x ≈ reduced r: at free slots, slip rows with their normal reaction.
   virtual GmresResult solve(Eigen::VectorXd r, const GmresOptions& options, Eigen::VectorXd& x) = 0;

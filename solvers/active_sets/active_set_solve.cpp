@@ -13,7 +13,6 @@
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/free_body_contact.hpp"
 #include "solvers/contact/paired_points.hpp"
-#include "solvers/direct/factor_counts.hpp"
 
 namespace airybench {
 namespace {
@@ -28,16 +27,16 @@ void finish_by_active_sets(const ContactSystem& given, const RunControl& control
   const Problem& problem = *given.problem;
   HybridizedSystem& system = body.system;
   const double tolerance = control.contact.tolerance;
-  FactoredRows rows(problem, given.contact, system, control.contact.start, control.deadline);
-  const bool has_contact = given.contact.count > 0;
-  RowsResult found = run_stage(
-      solution.times, has_contact ? Stage::contact : Stage::factor, MemoryOwner::iteration, [&] {
-        return solve_contact_on_rows(rows, load_scale(problem).energy_norm,
-                                     {tolerance, control.target_error / 1000});
-      });
+  const Stage stage = given.contact.count > 0 ? Stage::contact : Stage::recover;
+  FactoredRows rows = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
+    return FactoredRows(problem, given.contact, system, control.contact.start, control.deadline);
+  });
+  RowsResult found = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
+    return solve_contact_on_rows(rows, load_scale(problem).energy_norm,
+                                 {tolerance, control.target_error / 1000});
+  });
   note_rows(found, given.contact, control, tolerance, solution);
   solution.parameters = "active sets on K";
-  count_factor(rows.factor(), solution);
   solution.storage[MemoryOwner::system_matrix] = system.bytes();
   HybridizedAnswer answer;
   const Eigen::VectorXd F = project_on_coulomb(rows.contact, found.F_C);
@@ -62,6 +61,9 @@ void finish_by_active_sets(const ContactSystem& given, const RunControl& control
       judge_by_own_estimate(estimate, control, solution);
     });
   solution.storage[MemoryOwner::iteration] = rows.bytes() + found.bytes;
+  solution.storage[MemoryOwner::factor] = rows.made().bytes;
+  solution.factor_entries = rows.made().entries;
+  solution.factor_flops = rows.made().flops;
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ Solution solve_by_active_sets(const ContactSystem& given, const RunControl& cont
   refuse_free_bodies(given.contact);
   const auto body = std::make_shared<ActiveSetBody>();
   Solution solution;
-  run_stage(solution.times, Stage::factor, MemoryOwner::system_matrix, [&] {
+  run_stage(solution.times, Stage::precondition, MemoryOwner::system_matrix, [&] {
     body->system = assemble_hybridized(*given.problem, given.contact);
     body->compliance = of_both(
         given.contact, compliance_from_below(*given.problem, body->system.K, given.contact));

@@ -12,13 +12,20 @@ namespace airybench {
 namespace {
 
 // Rows of slip apart, a factor solves exactly.
-constexpr double condition_of_friction = 2;
+double condition_with_friction(const ContactPoints& points) {
+  double largest = 0;
+  for (const double mu : points.friction) largest = std::max(largest, mu);
+  return 2 * (1 + largest);
+}
 
 // A force on the cone slips, but for rounding.
 std::vector<PointLaw> laws_of_forces(const ContactPoints& contact, Eigen::VectorXd F) {
   constexpr double on_the_cone = 1 + 1e-9;
   for (int t = 1; contact.components == 2 && t < F.size(); t += 2) F(t) *= on_the_cone;
-  return laws_of(contact, F);
+  std::vector<PointLaw> laws = laws_of(contact, F);
+  for (int p = 0; p < contact.count; ++p)
+    if (contact.friction_at(p) == 0) laws[p].sticks = false;
+  return laws;
 }
 
 // Puts other numbers into K's elements while it lives.
@@ -48,7 +55,7 @@ FactoredRows::FactoredRows(const Problem& problem, const ContactPoints& points,
                            HybridizedSystem& system, const Eigen::VectorXd& start,
                            const Deadline& deadline)
     : ContactRows(joined(points), of_both(points, rough_compliance(problem, points)),
-                  condition_of_friction),
+                  condition_with_friction(points)),
       system_(system),
       deadline_(deadline),
       prescribed_(prescribed_forces(problem, system)),
@@ -126,8 +133,9 @@ void FactoredRows::change_signs() {
 }
 
 void FactoredRows::set(const std::vector<PointLaw>& laws) {
-  if (laws == laws_ && !number_.empty()) return;
+  if (laws == laws_ && is_factored_) return;
   laws_ = laws;
+  is_factored_ = false;
   number_slots();
   struct Signs {
     explicit Signs(FactoredRows& of_rows) : rows(of_rows) { rows.change_signs(); }
@@ -138,6 +146,10 @@ void FactoredRows::set(const std::vector<PointLaw>& laws) {
   const OwnerScope scope(MemoryOwner::factor);
   factor_.analyse(system_.K);
   factor_.factor(system_.K, deadline_);
+  is_factored_ = true;
+  made_.bytes = std::max(made_.bytes, factor_.bytes());
+  made_.entries = std::max(made_.entries, factor_.entries());
+  made_.flops += factor_.flops();
 }
 
 void FactoredRows::move_to_gap(Eigen::VectorXd& u) const {

@@ -11,6 +11,7 @@
 // system; rows of slip, which take the normal reaction along, cost a few of GMRES's iterations.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "solvers/active_sets/active_rows.hpp"
@@ -43,7 +44,13 @@ class FactoredRows : public ContactRows {
   double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const override { return x.dot(y); }
   double norm_from_below(const Eigen::VectorXd& F_C) override;
 
-  const MultifrontalFactor& factor() const { return factor_; }
+  // The largest factor, and the operations of all.
+  struct Made {
+    std::size_t bytes = 0;
+    std::int64_t entries = 0;
+    double flops = 0;
+  };
+  const Made& made() const { return made_; }
   std::size_t bytes() const;  // without the factor
 
  private:
@@ -69,6 +76,8 @@ class FactoredRows : public ContactRows {
   std::vector<int> elements_with_seconds_;
   Eigen::VectorXd start_;
   std::vector<PointLaw> laws_;
+  bool is_factored_ = false;  // under these laws
+  Made made_;
   std::vector<int> number_;  // per slot, of its unknown in the reduced system
   int unknowns_ = 0;         // of the reduced system
   MultifrontalFactor factor_;

@@ -298,6 +298,7 @@ void MultifrontalFactor::analyse(const ElementMatrices& K, int trailing) {
 
 void MultifrontalFactor::factor(const ElementMatrices& K, const Deadline& deadline) {
   rounded_.reset();
+  panels_.reset();  // that of another matrix goes before
   panels_ = room_for<double>(elimination_);
   Fronts fronts(elimination_, K);
   visit_fronts(elimination_, deadline, [&](int f) {

@@ -65,20 +65,41 @@ Solution solve_with(const ContactSystem& given, const RunControl& control) {
 // Of a body with many contact points, unless something else is asked of D: its cost grows with
 // n_c³.
 bool is_for_active_sets(const ContactPoints& contact, const RunControl& control) {
-  constexpr int many = 3000;
   const ContactOptions& law = control.contact;
-  return contact.size() > many && contact.free.is_empty() && control.stop == Stop::target &&
-         !control.condition && law.solver == ContactSolver::newton && !law.by &&
+  return contact.size() > many_contact_unknowns && contact.free.is_empty() &&
+         control.stop == Stop::target && !control.condition &&
+         law.solver == ContactSolver::newton && !law.by &&
          law.max_iterations == ContactOptions().max_iterations;
 }
 
-Solution solve_hybrid(const ContactSystem& given, const RunControl& control) {
-  constexpr int most_for_D = 8000;
-  if (is_for_active_sets(given.contact, control)) {
-    Solution solution = solve_by_active_sets(given, control);
-    if (solution.status == Status::ok || given.contact.size() > most_for_D) return solution;
+// By active sets, or, where these do not end, by D; with what both took.
+Solution solve_by_sets_or_D(const Solve& by_sets, const ContactSystem& given,
+                            const RunControl& control) {
+  Solution solution = run(by_sets, given, control);
+  const bool goes_on = solution.status == Status::not_converged ||
+                       solution.status == Status::inaccurate ||
+                       solution.status == Status::breakdown;
+  if (goes_on && given.contact.size() <= max_contact_unknowns_of_D) {
+    Solution by_D = solve_with<MultifrontalStiffness>(given, control);
+    for (const Stage stage : all_stages)
+      if (const auto& before = solution.times[stage])
+        by_D.times[stage] = by_D.times[stage].value_or(0) + *before;
+    by_D.linear_iterations = solution.linear_iterations;
+    by_D.newton_steps = by_D.newton_steps.value_or(0) + solution.newton_steps.value_or(0);
+    return by_D;
   }
-  return solve_with<MultifrontalStiffness>(given, control);
+  if (solution.solve_again)
+    solution.solve_again = [again = std::move(solution.solve_again)](const ContactSystem& load_case,
+                                                                     const RunControl& of_case) {
+      return solve_by_sets_or_D(again, load_case, of_case);
+    };
+  return solution;
+}
+
+Solution solve_hybrid(const ContactSystem& given, const RunControl& control) {
+  return is_for_active_sets(given.contact, control)
+             ? solve_by_sets_or_D(solve_by_active_sets, given, control)
+             : solve_with<MultifrontalStiffness>(given, control);
 }
 
 struct Variant {
@@ -104,7 +125,7 @@ Method hybrid_method(const Variant& of, int degree = 1) {
                    .solve = of.solve,
                    .knob = AccuracyKnob::contact_sweeps};
   if (first == "PDAS") {
-    method.stages = {Stage::factor, Stage::contact, Stage::recover, Stage::check};
+    method.stages = {Stage::precondition, Stage::contact, Stage::recover, Stage::check};
     method.knob = AccuracyKnob::none;
   }
   if (degree > 1) {

@@ -119,6 +119,26 @@ TEST(ListedScenes, HybridCgKnowsTheContactLawOfSoftLayersNextToStiffOnes) {
   EXPECT_LT(std::max(*record.error_stress, *record.error_force), 10 * *record.error_estimate);
 }
 
+// A block under pressure with more contact unknowns than a reference has.
+TEST(ListedScenes, ManyContactPointsHaveATotalErrorWithoutAReference) {
+  if (testing::sanitized) GTEST_SKIP() << "slow under the sanitizers";
+  Mesh mesh;
+  mesh.name = "plate";
+  testing::add_block(mesh, "plate", {0, 0}, {1100, 4}, 1100, 3,
+                     {"contact", "force", "displacement:head", "force"});
+  Scene scene;
+  scene.friction = 0.3;
+  scene.wall = FlatWall{{0, 0}, {0, 1}};
+  scene.displacement_mm = {0.002, -0.01};
+  const Record record = examined(testing::posed(scene, mesh), select_methods("HYBRID:k=3").front());
+  EXPECT_EQ(record.status, Status::ok);
+  EXPECT_TRUE(testing::contains(record.status_reason, "no reference above n_c = 8000"))
+      << record.status_reason;
+  EXPECT_FALSE(record.error_stress);
+  ASSERT_TRUE(record.error_total);
+  EXPECT_LT(*record.error_total, 0.5);
+}
+
 // 0.1 × 100 mm: what the elements lose is most of the error.
 TEST(ListedScenes, HybridKnowsWhatItsElementMatricesLose) {
   const auto problem = posed([](Scene& s) {
