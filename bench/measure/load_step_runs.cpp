@@ -78,7 +78,7 @@ void hand_over(Solution& path, Solution& last) {
 
 // Of many contact points by D alone the contact law takes minutes; HYBRID goes another way.
 Eigen::VectorXd first_forces(const ContactSystem& system, const Eigen::VectorXd& start) {
-  if (start.size() > 0 || system.n_c() <= many_contact_unknowns || !system.contact.free.is_empty())
+  if (start.size() > 0 || !system.contact.free.is_empty() || !active_sets_cost_less_than_D(system))
     return start;
   return run(select_methods(hybrid_of_degree(system.degree)).front(), system, {}).F_C;
 }

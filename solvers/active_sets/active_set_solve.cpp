@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "assembly/problem/load_scale.hpp"
 #include "solvers/active_sets/factored_rows.hpp"
@@ -13,6 +14,7 @@
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/free_body_contact.hpp"
 #include "solvers/contact/paired_points.hpp"
+#include "solvers/direct/elimination.hpp"
 
 namespace airybench {
 namespace {
@@ -67,6 +69,25 @@ void finish_by_active_sets(const ContactSystem& given, const RunControl& control
 }
 
 }  // namespace
+
+bool active_sets_cost_less_than_D(const ContactSystem& given) {
+  constexpr int few = 3000;
+  constexpr double sets = 20;
+  const double n_c = given.contact.size();
+  if (n_c <= few) return false;
+  const Problem& problem = *given.problem;
+  EdgeUnknowns unknown;
+  const int inner = number_unknowns(problem, given.contact, unknown);
+  ElementMatrices K(3 * unknown.length());  // without entries
+  K.order = inner + given.contact.size();
+  std::vector<int> numbers;
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    element_unknowns(problem, unknown, t, numbers);
+    K.unknown.push_back(numbers.data());
+    K.centre.push_back(centre_of(problem.vertices_of(t)));
+  }
+  return n_c * n_c * n_c > sets * analyse_elimination(K, 0).flops();
+}
 
 Solution solve_by_active_sets(const ContactSystem& given, const RunControl& control) {
   refuse_free_bodies(given.contact);

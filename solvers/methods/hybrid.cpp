@@ -62,14 +62,13 @@ Solution solve_with(const ContactSystem& given, const RunControl& control) {
   return solution;
 }
 
-// Of a body with many contact points, unless something else is asked of D: its cost grows with
-// n_c³.
-bool is_for_active_sets(const ContactPoints& contact, const RunControl& control) {
+// Of a body with many contact points, unless something else is asked of D.
+bool is_for_active_sets(const ContactSystem& given, const RunControl& control) {
   const ContactOptions& law = control.contact;
-  return contact.size() > many_contact_unknowns && contact.free.is_empty() &&
-         control.stop == Stop::target && !control.condition &&
+  return given.contact.free.is_empty() && control.stop == Stop::target && !control.condition &&
          law.solver == ContactSolver::newton && !law.by &&
-         law.max_iterations == ContactOptions().max_iterations;
+         law.max_iterations == ContactOptions().max_iterations &&
+         active_sets_cost_less_than_D(given);
 }
 
 // By active sets, or, where these do not end, by D; with what both took.
@@ -97,7 +96,7 @@ Solution solve_by_sets_or_D(const Solve& by_sets, const ContactSystem& given,
 }
 
 Solution solve_hybrid(const ContactSystem& given, const RunControl& control) {
-  return is_for_active_sets(given.contact, control)
+  return is_for_active_sets(given, control)
              ? solve_by_sets_or_D(solve_by_active_sets, given, control)
              : solve_with<MultifrontalStiffness>(given, control);
 }
