@@ -99,15 +99,10 @@ Solution solve_by_active_sets(const ContactSystem& given, const RunControl& cont
         given.contact, compliance_from_below(*given.problem, body->system.K, given.contact));
   });
   finish_by_active_sets(given, control, *body, solution);
-  if (control.keep_body)
-    solution.solve_again =
-        for_the_same_body(given, [body](const ContactSystem& load_case, const RunControl& again) {
-          Solution other;
-          run_stage(other.times, Stage::contact, MemoryOwner::system_matrix,
-                    [&] { set_load_case(*load_case.problem, body->system); });
-          finish_by_active_sets(load_case, again, *body, other);
-          return other;
-        });
+  const auto take_loads = [](const Problem& problem, ActiveSetBody& kept) {
+    set_load_case(problem, kept.system);
+  };
+  keep_if_told(given, control, body, take_loads, finish_by_active_sets, solution);
   return solution;
 }
 

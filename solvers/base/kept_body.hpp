@@ -15,11 +15,31 @@
 // at once.
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include "solvers/base/method.hpp"
 
 namespace airybench {
 
 // `solve`, which throws std::invalid_argument for another body than that of the first load case.
 Solve for_the_same_body(const ContactSystem& first, Solve solve);
+
+// Sets solve_again if the control asks for it. take_loads(problem): of another load case, into the
+// body; finish(load case, control, body, solution): all that follows.
+template <typename Body, typename TakeLoads, typename Finish>
+void keep_if_told(const ContactSystem& first, const RunControl& control, std::shared_ptr<Body> body,
+                  TakeLoads take_loads, Finish finish, Solution& solution) {
+  if (!control.keep_body) return;
+  solution.solve_again =
+      for_the_same_body(first, [body = std::move(body), take_loads, finish](
+                                   const ContactSystem& load_case, const RunControl& again) {
+        Solution other;
+        run_stage(other.times, Stage::contact, MemoryOwner::system_matrix,
+                  [&] { take_loads(*load_case.problem, *body); });
+        finish(load_case, again, *body, other);
+        return other;
+      });
+}
 
 }  // namespace airybench

@@ -17,23 +17,14 @@ struct StiffnessBody {
   contact::Problem condensed;
 };
 
-// Sets solve_again if the control asks for it. finish(load case, control, body, solution): all that
-// follows D and G.
 template <typename System, typename Finish>
 void keep_if_told(const ContactSystem& first, const RunControl& control,
                   std::shared_ptr<StiffnessBody<System>> body, Finish finish, Solution& solution) {
-  if (!control.keep_body) return;
-  solution.solve_again = for_the_same_body(
-      first,
-      [body = std::move(body), finish](const ContactSystem& load_case, const RunControl& again) {
-        Solution other;
-        run_stage(other.times, Stage::contact, MemoryOwner::system_matrix, [&] {
-          set_load_case(*load_case.problem, body->system);
-          body->condensed.G = body->factor->load(body->system.b);
-        });
-        finish(load_case, again, *body, other);
-        return other;
-      });
+  const auto take_loads = [](const Problem& problem, StiffnessBody<System>& kept) {
+    set_load_case(problem, kept.system);
+    kept.condensed.G = kept.factor->load(kept.system.b);
+  };
+  keep_if_told(first, control, std::move(body), take_loads, finish, solution);
 }
 
 }  // namespace airybench

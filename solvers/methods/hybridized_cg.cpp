@@ -128,15 +128,10 @@ Solution solve_hybridized_cg(const ContactSystem& given, const RunControl& contr
   Solution solution;
   make_two_levels(given, control, *body, solution);
   finish_iteratively(given, control, *body, solution);
-  if (control.keep_body)
-    solution.solve_again =
-        for_the_same_body(given, [body](const ContactSystem& load_case, const RunControl& again) {
-          Solution other;
-          run_stage(other.times, Stage::contact, MemoryOwner::system_matrix,
-                    [&] { set_load_case(*load_case.problem, body->system); });
-          finish_iteratively(load_case, again, *body, other);
-          return other;
-        });
+  const auto take_loads = [](const Problem& problem, KrylovBody& kept) {
+    set_load_case(problem, kept.system);
+  };
+  keep_if_told(given, control, body, take_loads, finish_iteratively, solution);
   return solution;
 }
 
