@@ -101,15 +101,7 @@ TEST(FactoredRows, RandomScenesAreSolvedOrItSaysThatTheyAreNot) {
 // So many that D is not formed at first: there is no stage of condensing.
 TEST(FactoredRows, AreWhatHybridTakesForManyContactPoints) {
   constexpr int degree = 3;
-  Mesh mesh;
-  mesh.name = "plate";
-  testing::add_block(mesh, "plate", {0, 0}, {400, 4}, 400, 3,
-                     {"contact", "force", "displacement:head", "force"});
-  Scene scene;
-  scene.friction = 0.3;
-  scene.wall = FlatWall{{0, 0}, {0, 1}};
-  scene.displacement_mm = {0.002, -0.01};
-  const ContactSystem system = contact_system(posed(scene, mesh), degree);
+  const ContactSystem system = contact_system(testing::pressed_plate(400), degree);
   ASSERT_TRUE(active_sets_cost_less_than_D(system));
   const Solution found = testing::solved_by(hybrid_of_degree(degree), system);
   ASSERT_EQ(found.status, Status::ok) << found.message;

@@ -1,8 +1,12 @@
-// Two blocks in contact: meshes that do not match, and a scene that presses them together.
+// Two blocks in contact: meshes that do not match, and a scene that presses them together; a plate
+// on a wall.
 #pragma once
+
+#include <memory>
 
 #include "assembly/problem/scene.hpp"
 #include "tests/support/pieces.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::testing {
 
@@ -39,6 +43,19 @@ inline Scene pressed(double friction, const Eigen::Vector2d& head_mm = {0.004, -
   scene.boundary["displacement:head"].displacement_mm =
       LinearValue<Eigen::Vector2d>{{head_mm, head_mm}};
   return scene;
+}
+
+// A plate of 1 mm long cells, 4 mm high, pressed on a wall: many contact points at a little cost.
+inline std::shared_ptr<const Problem> pressed_plate(int cells) {
+  Mesh mesh;
+  mesh.name = "plate";
+  add_block(mesh, "plate", {0, 0}, {static_cast<double>(cells), 4}, cells, 3,
+            {"contact", "force", "displacement:head", "force"});
+  Scene scene;
+  scene.friction = 0.3;
+  scene.wall = FlatWall{{0, 0}, {0, 1}};
+  scene.displacement_mm = {0.002, -0.01};
+  return posed(scene, mesh);
 }
 
 }  // namespace airybench::testing

@@ -122,15 +122,8 @@ TEST(ListedScenes, HybridCgKnowsTheContactLawOfSoftLayersNextToStiffOnes) {
 // A block under pressure with more contact unknowns than a reference has.
 TEST(ListedScenes, ManyContactPointsHaveATotalErrorWithoutAReference) {
   if (testing::sanitized) GTEST_SKIP() << "slow under the sanitizers";
-  Mesh mesh;
-  mesh.name = "plate";
-  testing::add_block(mesh, "plate", {0, 0}, {1100, 4}, 1100, 3,
-                     {"contact", "force", "displacement:head", "force"});
-  Scene scene;
-  scene.friction = 0.3;
-  scene.wall = FlatWall{{0, 0}, {0, 1}};
-  scene.displacement_mm = {0.002, -0.01};
-  const Record record = examined(testing::posed(scene, mesh), select_methods("HYBRID:k=3").front());
+  const Record record =
+      examined(testing::pressed_plate(1100), select_methods("HYBRID:k=3").front());
   EXPECT_EQ(record.status, Status::ok);
   EXPECT_TRUE(testing::contains(record.status_reason, "no reference above n_c = 8000"))
       << record.status_reason;
