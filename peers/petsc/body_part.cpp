@@ -80,6 +80,7 @@ Problem with_boundary(Mesh mesh, MeshEdges edges, std::vector<Eigen::Matrix3d> c
     if (friction) problem.friction.push_back(arrays->friction(given->row[of]));
     ContactNormals& normals = problem.contact_normals.emplace_back();
     for (int k = 0; k < 3; ++k) normals.at(k, 2) = given->pair(arrays->normals, of, k);
+    for (const int end : {0, 1}) normals.at(end, 1) = normals.at(2 * end, 2);
     for (int k = 0; k < 2; ++k) normals.at(k + 1, 3) = given->pair(arrays->moment_normals, of, k);
   }
   // Friction anywhere on the boundary makes has_friction() true on every rank.
