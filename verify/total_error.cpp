@@ -7,6 +7,8 @@
 
 namespace airybench {
 
+static constexpr double rounding = 1e-10;  // of the largest norm of all steps
+
 void TotalError::add(const ConstitutiveError& error, const std::string& step, Of answer) {
   if (flaw_.empty() && !error.flaw.empty()) flaw_ = step + error.flaw;
   const double norm = answer == Of::stresses ? error.stress_norm
@@ -14,10 +16,13 @@ void TotalError::add(const ConstitutiveError& error, const std::string& step, Of
   const double squared = error.squared_Nmm();
   of_step_.push_back({norm, error.flaw.empty() ? std::optional(error.relative) : std::nullopt,
                       squared > 0 ? error.relative * std::sqrt(error.geometry_Nmm / squared) : 0});
+  const bool is_first_loaded = largest_norm_ < rounding * norm;
   largest_norm_ = std::max(largest_norm_, norm);
   sliding_.include(error.sliding);
   parts_.resize(error.of_triangle_Nmm.size());
   of_chords_.resize(parts_.size());
+  if (is_first_loaded)  // what was added so far is relative to rounding
+    for (std::vector<double>* parts : {&parts_, &of_chords_}) std::ranges::fill(*parts, 0);
   if (!(squared > 0) || is_unloaded(steps() - 1)) return;
   const double scale = error.relative * error.relative / squared;
   for (std::size_t t = 0; t < parts_.size(); ++t) parts_[t] += scale * error.of_triangle_Nmm[t];
@@ -26,7 +31,6 @@ void TotalError::add(const ConstitutiveError& error, const std::string& step, Of
 }
 
 bool TotalError::is_unloaded(int step) const {
-  constexpr double rounding = 1e-10;
   return steps() > 1 && of_step_[static_cast<std::size_t>(step)].norm < rounding * largest_norm_;
 }
 

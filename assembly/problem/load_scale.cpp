@@ -14,39 +14,53 @@ LoadScale load_scale(const Problem& problem) {
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& x : mesh.vertices) box.extend(x);
   const double diameter = box.diagonal().norm();
-  double displacement = 0, stress = loads.body_force_N_per_mm3.stableNorm() * diameter;
+  // between: without the common motion, which leaves no rounding.
+  double displacement = 0, between = 0, stress = loads.body_force_N_per_mm3.stableNorm() * diameter;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
     const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
     const Eigen::Vector2d normal = edge_frame(a, b).normal;
+    const auto size = [&](const Eigen::Vector2d& u0) {
+      return problem.is_roller(row) ? std::abs(normal.dot(u0)) : u0.stableNorm();
+    };
     for (const Eigen::Vector2d& x : {a, b}) {
       if (edge.role == BoundaryRole::displacement) {
-        Eigen::Vector2d u0 = problem.motion.at(x);
-        if (loads.displacement_mm) u0 += loads.displacement_mm(x, row);
-        displacement = std::max(
-            displacement, problem.is_roller(row) ? std::abs(normal.dot(u0)) : u0.stableNorm());
+        Eigen::Vector2d own(0, 0);
+        if (loads.displacement_mm) own = loads.displacement_mm(x, row);
+        between = std::max(between, size(own));
+        displacement = std::max(displacement, size(problem.motion.at(x) + own));
       }
       // An interference acts as a displacement.
       if (edge.role == BoundaryRole::contact)
-        displacement = std::max(displacement, -problem.offset_at(x, row).gap_mm);
+        between = std::max(between, -problem.offset_at(x, row).gap_mm);
       if (edge.role == BoundaryRole::force && loads.traction_MPa)
         stress = std::max(stress, loads.traction_MPa(x, normal, row).stableNorm());
     }
   }
-  LoadScale scale;
-  if (!problem.opposite.empty() || !loads.thermal.empty()) scale.rounding = 1e-11;
-  double energy = 0;
-  double strain = displacement / diameter;
+  displacement = std::max(displacement, between);
+  double thermal_strain = 0;
   if (!loads.thermal.empty())
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
       for (const int v : mesh.triangles[t])
-        strain = std::max(strain, std::abs(problem.thermal_strain(t).at(mesh.vertices[v])));
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    const double c = problem.compliance_of(t)(0, 0);
-    energy += problem.area_mm2(t) * (strain * strain / c + c * stress * stress);
-    scale.force_N = std::max(scale.force_N, strain * diameter / c + stress * diameter);
-  }
-  scale.energy_norm = std::sqrt(energy);
+        thermal_strain =
+            std::max(thermal_strain, std::abs(problem.thermal_strain(t).at(mesh.vertices[v])));
+  LoadScale scale;
+  const auto energy_norm = [&](double strain) {
+    double energy = 0;
+    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+      const double c = problem.compliance_of(t)(0, 0);
+      energy += problem.area_mm2(t) * (strain * strain / c + c * stress * stress);
+    }
+    return std::sqrt(energy);
+  };
+  const double strain = std::max(displacement / diameter, thermal_strain);
+  scale.energy_norm = energy_norm(strain);
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    scale.force_N = std::max(
+        scale.force_N, strain * diameter / problem.compliance_of(t)(0, 0) + stress * diameter);
+  if ((!problem.opposite.empty() || !loads.thermal.empty()) && scale.energy_norm > 0)
+    scale.rounding =
+        1e-9 * energy_norm(std::max(between / diameter, thermal_strain)) / scale.energy_norm;
   return scale;
 }
 

@@ -157,7 +157,7 @@ void solve(const char* input, const char* output, const char* tolerance_text) {
   const LoadScale scale = scale_of(part);
   stages.end("precondition");
 
-  RowsResult answer = solve_contact_on_rows(rows, scale.energy_norm, options);
+  RowsResult answer = solve_contact_on_rows(rows, scale, options);
   answer.F_C = project_on_coulomb(part.contact, answer.F_C);
   stages.end("contact");
   double estimate = 0;

@@ -17,7 +17,7 @@ int iterations_at_once(Eigen::Index rows) {
 
 class RowsNewton {
  public:
-  RowsNewton(ContactRows& rows, double scale, const RowsOptions& options)
+  RowsNewton(ContactRows& rows, const LoadScale& scale, const RowsOptions& options)
       : rows_(rows), scale_(scale), options_(options) {
     now_.u.setZero(rows.slots());
     best_.natural_map_residual = std::numeric_limits<double>::infinity();
@@ -71,7 +71,7 @@ class RowsNewton {
     constexpr int max_cycles = 50;
     const std::int64_t before = now_.iterations;
     for (int cycle = 0, idle = 0; cycle < max_cycles && idle < 2; ++cycle) {
-      const double enough = target / rows_.condition * (size_ > 0 ? size_ : scale_);
+      const double enough = target / rows_.condition * (size_ > 0 ? size_ : scale_.energy_norm);
       const GmresOptions options{1e-8, enough / 2, iterations_at_once(unbalanced_.size())};
       const GmresResult linear = rows_.solve(unbalanced_, options, correction_);
       now_.iterations += linear.iterations;
@@ -79,7 +79,7 @@ class RowsNewton {
       now_.u += correction_;
       measure();
       const double left = rows_.error_left(linear, unbalanced_, target <= options_.tolerance);
-      now_.linear_error = relative_error(left, size_, scale_);
+      now_.linear_error = scale_.relative_energy(left, size_);
       now_.history.push_back(now_.linear_error);
       if (now_.linear_error <= target) return;
       if (linear.reduction > 0.5) ++idle;
@@ -91,7 +91,7 @@ class RowsNewton {
     now_.F_C = forces_under(rows_.contact, now_.laws, rows_.reactions(unbalanced_));
     if (rows_.contact.count == 0) return false;
     LawChoice::Next next = choice_.after(rows_.contact, rows_.compliance, now_.laws, now_.F_C,
-                                         rows_.of_contact(now_.u), options_.tolerance);
+                                         rows_.of_contact(now_.u), scale_, options_.tolerance);
     now_.natural_map_residual = next.natural_map;
     if (now_.natural_map_residual < best_.natural_map_residual) best_ = now_;
     if (next.laws.empty()) return false;
@@ -100,7 +100,7 @@ class RowsNewton {
   }
 
   ContactRows& rows_;
-  double scale_;
+  const LoadScale scale_;
   const RowsOptions options_;
   RowsResult now_, best_;
   std::vector<PointLaw> held_laws_;
@@ -111,7 +111,8 @@ class RowsNewton {
 
 }  // namespace
 
-RowsResult solve_contact_on_rows(ContactRows& rows, double scale, const RowsOptions& options) {
+RowsResult solve_contact_on_rows(ContactRows& rows, const LoadScale& scale,
+                                 const RowsOptions& options) {
   return RowsNewton(rows, scale, options).solve();
 }
 

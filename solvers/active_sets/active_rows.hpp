@@ -79,6 +79,7 @@ struct RowsOptions {
 };
 
 // scale: energy norm of the loads, where u has none.
-RowsResult solve_contact_on_rows(ContactRows& rows, double scale, const RowsOptions& options);
+RowsResult solve_contact_on_rows(ContactRows& rows, const LoadScale& scale,
+                                 const RowsOptions& options);
 
 }  // namespace airybench

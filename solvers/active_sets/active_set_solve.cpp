@@ -34,7 +34,7 @@ void finish_by_active_sets(const ContactSystem& given, const RunControl& control
     return FactoredRows(problem, given.contact, system, control.contact.start, control.deadline);
   });
   RowsResult found = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
-    return solve_contact_on_rows(rows, load_scale(problem).energy_norm,
+    return solve_contact_on_rows(rows, load_scale(problem),
                                  {tolerance, control.target_error / 1000});
   });
   note_rows(found, given.contact, control, tolerance, solution);

@@ -118,7 +118,7 @@ void finish_by_active_set(const contact::Problem& problem, const ContactOptions&
        ++step, ++since_best) {
     if (!std::isfinite(F.norm())) break;
     const Eigen::VectorXd u = D_times(problem, F) - problem.G;
-    const double relative = relative_natural_map(problem.points, D_diagonal(problem), F, u);
+    const double relative = relative_natural_map(problem, F, u);
     const double before = result.natural_map_residual;
     if (step == 0 || relative < before) {
       result.F_C = F;

@@ -27,9 +27,21 @@ Eigen::VectorXd contact_offset(const contact::Problem& problem) {
   return gap.size() > 0 ? Eigen::VectorXd(problem.G + gap) : problem.G;
 }
 
+double undoing_force_N(const contact::Problem& problem) {
+  const Eigen::VectorXd moved = sums_of_pairs(problem.points, Eigen::VectorXd(-problem.G));
+  return project_on_coulomb(problem.points,
+                            trial_forces(problem.points, D_diagonal(problem),
+                                         Eigen::VectorXd::Zero(moved.size()), moved))
+      .norm();
+}
+
+double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F,
+                            const Eigen::VectorXd& displacement) {
+  return relative_natural_map(problem.points, D_diagonal(problem), F, displacement,
+                              undoing_force_N(problem));
+}
 double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F) {
-  return relative_natural_map(problem.points, D_diagonal(problem), F,
-                              D_times(problem, F) - problem.G);
+  return relative_natural_map(problem, F, D_times(problem, F) - problem.G);
 }
 
 ContactResult solve_contact(const contact::Problem& problem, const ContactOptions& options,

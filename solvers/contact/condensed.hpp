@@ -8,6 +8,7 @@
 
 #include "assembly/contact_problem.hpp"
 #include "solvers/base/solution.hpp"
+#include "solvers/contact/coulomb_law.hpp"
 
 namespace airybench {
 
@@ -18,12 +19,16 @@ struct ContactResult {
   bool converged = false;
   int iterations = 0;        // sweeps
   int active_set_steps = 0;  // active_set.hpp
-  // Relative to ‖F_C‖; infinity: not computed; NaN: a force is not finite.
+  // Of coulomb_law.hpp; infinity: not computed; NaN: a force is not finite.
   double natural_map_residual = std::numeric_limits<double>::infinity();
   std::vector<double> history;  // ‖change of an iteration‖/‖F_C‖; if ContactOptions::history
 };
 
-// That of coulomb_law.hpp, with r = D F − G − ḡ.
+// The size of the forces that would undo −G at every point alone, where that presses.
+double undoing_force_N(const contact::Problem& problem);
+// That of coulomb_law.hpp; without a displacement ū_C = D F − G.
+double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F,
+                            const Eigen::VectorXd& displacement);
 double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F);
 
 // By options.by or options.solver, pairs and free bodies by theirs (paired_points.hpp,
@@ -43,6 +48,7 @@ ContactResult iterate_contact(const contact::Problem& problem, const ContactOpti
   ContactResult result;
   Eigen::VectorXd& F = result.F_C;
   F = options.start.size() > 0 ? options.start : Eigen::VectorXd::Zero(problem.points.size());
+  const double undoing_N = undoing_force_N(problem);
   const auto ask = [&](double allowed) {
     result.natural_map_residual = relative_natural_map(problem, F);
     return result.natural_map_residual <= allowed;
@@ -56,7 +62,7 @@ ContactResult iterate_contact(const contact::Problem& problem, const ContactOpti
       return result;
     }
     if (options.history) result.history.push_back(norm > 0 ? change / norm : 0);
-    if (change <= options.tolerance * norm)
+    if (change <= options.tolerance * size_of_forces(norm, undoing_N))
       result.converged = ask(norm > 0 ? options.tolerance : 0);
     if (result.iterations % 64 == 0) deadline.check("the contact law's iterations");
   }

@@ -155,10 +155,18 @@ Eigen::VectorXd natural_map_of(const ContactPoints& contact, const Eigen::Vector
   return F_C - project_on_coulomb(contact, trial_forces(contact, D_diagonal, F_C, r));
 }
 
+double size_of_forces(double norm_N, double undoing_N) {
+  constexpr double rounding = 1e-9;
+  const bool is_rounding = norm_N > 0 && norm_N <= rounding * undoing_N;
+  return is_rounding && std::isfinite(undoing_N) ? undoing_N : norm_N;
+}
+
 double relative_natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
-                            const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement) {
-  const double norm = F_C.norm(), map = natural_map(contact, D_diagonal, F_C, displacement).norm();
-  return norm > 0 ? map / norm : map;
+                            const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement,
+                            double undoing_N) {
+  const double size = size_of_forces(F_C.norm(), undoing_N),
+               map = natural_map(contact, D_diagonal, F_C, displacement).norm();
+  return size > 0 ? map / size : map;
 }
 
 }  // namespace airybench

@@ -56,8 +56,13 @@ Eigen::VectorXd natural_map_of(const ContactPoints& contact, const Eigen::Vector
 // displacement: ū_C.
 Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                             const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement);
-// Its norm over ‖F_C‖; where F_C = 0 its norm.
+// What errors of contact forces are relative to, N: their norm; where bodies just touch, and it is
+// only rounding of the forces that would undo the displacements without contact, that of these.
+double size_of_forces(double norm_N, double undoing_N);
+
+// Its norm over that size; where this is zero its norm.
 double relative_natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
-                            const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement);
+                            const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement,
+                            double undoing_N = 0);
 
 }  // namespace airybench

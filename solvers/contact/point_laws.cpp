@@ -60,9 +60,11 @@ Eigen::VectorXd forces_under(const ContactPoints& contact, const std::vector<Poi
 
 LawChoice::Next LawChoice::after(const ContactPoints& contact, const Eigen::VectorXd& compliance,
                                  const std::vector<PointLaw>& laws, const Eigen::VectorXd& F_C,
-                                 const Eigen::VectorXd& u_C, double tolerance) {
+                                 const Eigen::VectorXd& u_C, const LoadScale& scale,
+                                 double tolerance) {
   constexpr int patience = 8;
-  Next next = {relative_natural_map(contact, compliance, F_C, u_C), {}};
+  const Eigen::VectorXd map = natural_map(contact, compliance, F_C, u_C);
+  Next next = {scale.relative_force(map.norm(), F_C.norm()), {}};
   ++since_halved_;
   if (next.natural_map < to_halve_ / 2) {
     to_halve_ = next.natural_map;
@@ -76,9 +78,7 @@ LawChoice::Next LawChoice::after(const ContactPoints& contact, const Eigen::Vect
     share_ /= 2;
     since_halved_ = 0;
   }
-  next.laws = share_ < 1
-                  ? changed_in_part(laws, all, natural_map(contact, compliance, F_C, u_C), share_)
-                  : all;
+  next.laws = share_ < 1 ? changed_in_part(laws, all, map, share_) : all;
   return next;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly/contact_problem.hpp"
+#include "assembly/problem/load_scale.hpp"
 
 namespace airybench {
 
@@ -36,7 +37,7 @@ class LawChoice {
   // After `laws` with F_C and u_C; compliance: rough, of every row of F_C.
   Next after(const ContactPoints& contact, const Eigen::VectorXd& compliance,
              const std::vector<PointLaw>& laws, const Eigen::VectorXd& F_C,
-             const Eigen::VectorXd& u_C, double tolerance);
+             const Eigen::VectorXd& u_C, const LoadScale& scale, double tolerance);
 
  private:
   double share_ = 1, to_halve_ = std::numeric_limits<double>::infinity();

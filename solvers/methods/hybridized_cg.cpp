@@ -93,7 +93,7 @@ void finish_iteratively(const ContactSystem& given, const RunControl& control, K
     return SlotRows(problem, given.contact, body.system, body.matrix, M, control.deadline);
   });
   RowsResult rows = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
-    return solve_contact_on_rows(slots, load_scale(problem).energy_norm,
+    return solve_contact_on_rows(slots, load_scale(problem),
                                  {control.tolerance, control.target_error / 1000});
   });
   note_rows(rows, given.contact, control, control.tolerance, solution);

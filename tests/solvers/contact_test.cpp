@@ -212,6 +212,21 @@ TEST(ContactSolvers, TooFewIterationsOrNaNIsNotConverged) {
   }
 }
 
+// What presses is only the rounding of displacements and gap: errors relative to it would never
+// become small.
+TEST(ContactSolvers, EndWhereBodiesJustTouch) {
+  contact::Problem problem = random_problem(2, 0.3, 16);
+  problem.points.gap = -problem.G + 1e-13 * problem.G.norm() * Eigen::VectorXd::Random(24);
+  for (const ContactSolver solver : all_contact_solvers) {
+    ContactOptions options;
+    options.solver = solver;
+    const ContactResult result = solve_contact(problem, options);
+    EXPECT_TRUE(result.converged) << name_of(solver);
+    EXPECT_LE(result.iterations, 100) << name_of(solver);
+    EXPECT_LE(result.F_C.norm(), 1e-11 * undoing_force_N(problem)) << name_of(solver);
+  }
+}
+
 TEST(NaturalMap, IsZeroExactlyWhereTheLawHolds) {
   const ContactPoints contact = points(2, 2, 0.5);
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(4, 2.0);

@@ -51,6 +51,17 @@ TEST(TotalError, AnUnloadedStepHasNoneAndIsNotRefinedFor) {
   EXPECT_DOUBLE_EQ(total.parts()[0] + total.parts()[1], 0.0004);
 }
 
+TEST(TotalError, StepsBeforeTheFirstLoadedOneAreNotRefinedFor) {
+  TotalError total;
+  for (const double norm : {1e-11, 3e-11}) total.add(error_of(1e-23, 1e-22, norm), "");
+  total.add(error_of(3, 1, 100), "");
+  total.add(error_of(3, 1, 200), "");
+  EXPECT_TRUE(total.is_unloaded(0));
+  EXPECT_TRUE(total.is_unloaded(1));
+  EXPECT_DOUBLE_EQ(total.parts()[0], 0.0003 + 0.000075);
+  EXPECT_DOUBLE_EQ(total.parts()[1], 0.0001 + 0.000025);
+}
+
 TEST(TotalError, AFlawLeavesNoError) {
   TotalError total;
   total.add(error_of(3, 1, 100), "");
