@@ -23,12 +23,14 @@ void pair_points(const Problem& problem, const CurvedTraces& traces,
   for (int i = 0; i < points.law.count; ++i) point_of_node[points.node[i]] = i;
   points.law.opposite.assign(static_cast<std::size_t>(points.law.count), ContactPoints::no_point);
   const std::vector<ContactOffset> own = offset;
+  std::map<int, double> least_gap_mm;  // of both, by the first: over the edges that meet there
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     const int other = problem.opposite_of(row);
     if (other == Problem::no_row) continue;
     const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row),
                                  others = boundary_nodes<p>(problem, other);
-    const std::array<ContactOffset, p + 1> of_others = traces.offsets<p>(other);
+    const std::array<ContactOffset, p + 1> of_own = traces.offsets<p>(row),
+                                           of_others = traces.offsets<p>(other);
     for (int k = 0; k <= p; ++k) {
       const int across = others[p - k];
       const ContactOffset& beyond = of_others[p - k];
@@ -37,6 +39,10 @@ void pair_points(const Problem& problem, const CurvedTraces& traces,
       const int point = one->second;
       if (two != point_of_node.end()) {
         points.law.opposite[point] = two->second;
+        if (points.on_roller[point] || points.on_roller[two->second]) continue;
+        const double gap_mm = of_own[k].gap_mm + beyond.gap_mm;
+        const auto [least, is_new] = least_gap_mm.try_emplace(std::min(point, two->second), gap_mm);
+        if (!is_new) least->second = std::min(least->second, gap_mm);
       } else if (prescribed.at[across]) {
         const Eigen::Vector2d moved = prescribed.u.col(across) + beyond.motion_mm;
         offset[point].gap_mm = own[point].gap_mm + beyond.gap_mm + points.normal[point].dot(moved);
@@ -44,6 +50,10 @@ void pair_points(const Problem& problem, const CurvedTraces& traces,
             own[point].slid_mm + beyond.slid_mm + points.frame(point).col(1).dot(moved);
       }
     }
+  }
+  for (const auto& [point, gap_mm] : least_gap_mm) {
+    offset[point].gap_mm = gap_mm;
+    offset[points.law.opposite[point]].gap_mm = 0;
   }
 }
 

@@ -63,8 +63,8 @@ inline LargestValue largest_value(const AlongEdge& c, LargestValue known = {}, d
   };
   consider(c(0), start);
   consider(c(c.size() - 1), start + length);
-  if (length < shortest || c.maxCoeff() <= known.value + rounding * c.cwiseAbs().maxCoeff())
-    return known;
+  if (length < shortest || !(c.maxCoeff() > known.value + rounding * c.cwiseAbs().maxCoeff()))
+    return known;  // or NaN
   const auto [left, right] = halved(c);
   known = largest_value(left, known, start, length / 2);
   return largest_value(right, known, start + length / 2, length / 2);

@@ -135,8 +135,14 @@ void note_contact(const ContactPoints& points, const Eigen::MatrixXd& D, const E
   note_contact_law(points, F, displacement, D.diagonal(), scale, result);
   const int m = points.components;
   if (m > 1)
-    result.friction_coupling =
-        friction_coupling(points, [&](int p) { return D.block(m * p, m * p, m, m); });
+    result.friction_coupling = friction_coupling(points, [&](int p) -> Eigen::MatrixXd {
+      const int q = points.opposite_of(p);
+      Eigen::MatrixXd block = D.block(m * p, m * p, m, m);
+      if (q != ContactPoints::no_point)  // one force acts on both, and r is the sum
+        block +=
+            D.block(m * p, m * q, m, m) + D.block(m * q, m * p, m, m) + D.block(m * q, m * q, m, m);
+      return block;
+    });
 }
 
 Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F) {

@@ -58,9 +58,13 @@ double squared_error(const Problem& problem, const StressField& stress, int tria
   const auto density = [&](double s) {  // |r|²/E
     const Eigen::Vector2d normal = side.normal_at(s, chord);
     const Eigen::Vector3d sigma = bernstein_value(along, s);
-    if (is_held)
-      return change_across(compliance * sigma, chord).squaredNorm() / compliance(0, 0) *
+    if (is_held) {
+      Eigen::Vector3d strain = compliance * sigma;
+      if (problem.is_warm(triangle))
+        strain.head<2>().array() += problem.thermal_strain(triangle).at((1 - s) * a + s * b);
+      return change_across(strain, chord).squaredNorm() / compliance(0, 0) *
              (normal - chord.normal).squaredNorm();
+    }
     Eigen::Vector2d r = -traction(sigma, normal - chord.normal);
     if (edge.role == BoundaryRole::force && problem.loads.traction_MPa) {
       const Eigen::Vector2d x = (1 - s) * a + s * b;
@@ -95,12 +99,13 @@ double squared_error_between(const Problem& problem, const StressField& stress,
 }
 
 std::vector<Interface> interfaces_of_materials(const Problem& problem) {
-  const auto& materials = problem.compliance;
-  if (std::ranges::all_of(materials, [&](const auto& one) { return one == materials.front(); }))
-    return {};
+  bool all_alike = true;
+  for (int body = 1; body < static_cast<int>(problem.compliance.size()); ++body)
+    all_alike = all_alike && problem.strain_alike(0, body);
+  if (all_alike) return {};
   std::vector<Interface> found = interfaces(problem.mesh, problem.edges);
   std::erase_if(found, [&](const Interface& one) {
-    return problem.compliance[one.bodies[0]] == problem.compliance[one.bodies[1]];
+    return problem.strain_alike(one.bodies[0], one.bodies[1]);
   });
   return found;
 }

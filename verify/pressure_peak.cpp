@@ -142,9 +142,12 @@ class Places {
   }
 
  private:
-  const Eigen::Matrix3d& compliance_at(int row) const {
-    return problem_.compliance_of(side_[static_cast<std::size_t>(row)].triangle);
+  static constexpr double min_cosine_of_face = 0.94;  // 20°: what matching takes for a corner
+
+  int body_at(int row) const {
+    return problem_.mesh.triangle_body[side_[static_cast<std::size_t>(row)].triangle];
   }
+  const Eigen::Matrix3d& compliance_at(int row) const { return problem_.compliance[body_at(row)]; }
   // 1/E' of both bodies.
   double compliance(int row) const {
     const int other = problem_.opposite_of(row);
@@ -177,16 +180,32 @@ class Places {
     return is_kink(8 * largest_mm / e.length, e.row, e.pressure.maxCoeff());
   }
 
+  // Of faces that are matched, whose normal at a vertex is that of both edges.
+  bool is_corner(int before, int after) const {
+    if (problem_.matching.has_curves) return false;  // which edges may stand for
+    const auto normal = [&](int row, double s) {
+      const BoundaryEdge& edge = problem_.mesh.boundary[row];
+      return edge.curve.is_straight() ? own_frame(row).normal : edge.curve.normal(s);
+    };
+    return normal(before, 1).dot(normal(after, 0)) < min_cosine_of_face;
+  }
+  EdgeFrame own_frame(int row) const {
+    const auto [a, b] = problem_.mesh.boundary[row].vertices;
+    return edge_frame(problem_.mesh.vertices[a], problem_.mesh.vertices[b]);
+  }
+
   bool is_smooth(const Face::Edge& before, const Face::Edge& after) const {
     const int a = before.row, b = after.row;
     const auto is_alike = [&](int one, int other) {
       return problem_.friction_at(one) == problem_.friction_at(other) &&
-             compliance_at(one) == compliance_at(other);
+             problem_.strain_alike(body_at(one), body_at(other));
     };
     const int beyond_a = problem_.opposite_of(a), beyond_b = problem_.opposite_of(b);
     if (!is_alike(a, b) || (beyond_a == Problem::no_row) != (beyond_b == Problem::no_row))
       return false;
     if (beyond_a != Problem::no_row && !is_alike(beyond_a, beyond_b)) return false;
+    if (beyond_a != Problem::no_row && (is_corner(a, b) || is_corner(beyond_b, beyond_a)))
+      return false;
     if ((problem_.frame_at(a, 1, 1).normal - problem_.frame_at(b, 0, 1).normal).norm() > straight)
       return false;
     const double pressure = std::max(before.pressure.maxCoeff(), after.pressure.maxCoeff()),
@@ -201,10 +220,6 @@ class Places {
   bool is_regular_end(int row, int end) const {
     const Mesh& mesh = problem_.mesh;
     const int v = mesh.boundary[row].vertices[end], side = end == 0 ? before_[v] : after_[v];
-    const auto own_frame = [&](int r) {
-      const auto [a, b] = mesh.boundary[r].vertices;
-      return edge_frame(mesh.vertices[a], mesh.vertices[b]);
-    };
     const EdgeFrame face = problem_.frame_at(row, end, 1), other = own_frame(side);
     const bool slides = problem_.friction_at(row) == 0;
     if (mesh.boundary[side].role == BoundaryRole::displacement)

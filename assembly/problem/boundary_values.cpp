@@ -77,7 +77,8 @@ void check_held(const PieceSupport& support) {
 }
 
 // u0 may not jump where displacement edges meet: no field has such a jump and finite energy.
-// Rollers prescribe u_n alone, and rollers that are not parallel agree with any values.
+// Rollers prescribe u_n alone, and rollers that are not parallel, of curves at the vertex, agree
+// with any values.
 void check_agreement(const Mesh& mesh, const std::vector<std::string>& labels,
                      const std::vector<BoundaryValues>& of_row) {
   constexpr double rounding = 1e-9;
@@ -93,9 +94,11 @@ void check_agreement(const Mesh& mesh, const std::vector<std::string>& labels,
         const BoundaryValues& own = of_row[rows[k]];
         const auto [a, b] = mesh.boundary[rows[k]].vertices;
         u[k] = own.displacement_mm->at(mesh.vertices[vertex]);
-        rolls_along[k] = own.support == BoundaryValues::Support::normal
+        const EdgeCurve& curve = mesh.boundary[rows[k]].curve;
+        rolls_along[k] = own.support != BoundaryValues::Support::normal ? Eigen::Vector2d(0, 0)
+                         : curve.is_straight() || mesh.is_polygon
                              ? edge_frame(mesh.vertices[a], mesh.vertices[b]).tangent
-                             : Eigen::Vector2d(0, 0);
+                             : Eigen::Vector2d(curve.derivative(vertex == a ? 0 : 1).normalized());
       }
       Eigen::Vector2d jump = u[1] - u[0];
       const bool both_roll = !rolls_along[0].isZero(0) && !rolls_along[1].isZero(0);
@@ -187,7 +190,13 @@ void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displace
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
     BoundaryValues& own = (*of_row)[row];
     const auto given = conditions.find(labels[row]);
-    if (given != conditions.end()) own = given->second;
+    if (given != conditions.end()) {  // without its walls, which may be long
+      const BoundaryValues& of_group = given->second;
+      own.support = of_group.support;
+      own.displacement_mm = of_group.displacement_mm;
+      own.traction_MPa = of_group.traction_MPa;
+      own.pressure_MPa = of_group.pressure_MPa;
+    }
     const bool is_held = mesh.boundary[row].role == BoundaryRole::displacement;
     if (is_held && !own.displacement_mm) own.displacement_mm = everywhere;
     moved |= acts(own.displacement_mm);

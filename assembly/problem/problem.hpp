@@ -183,6 +183,11 @@ struct Problem {
   const Eigen::Matrix3d& compliance_of(int triangle) const {
     return compliance[mesh.triangle_body[triangle]];
   }
+  // Whether the same stress strains two bodies alike.
+  bool strain_alike(int body, int other) const {
+    return compliance[body] == compliance[other] &&
+           (loads.thermal.empty() || loads.thermal[body] == loads.thermal[other]);
+  }
   TriangleVertices vertices_of(int triangle) const;
   template <typename Scalar = double>
   Scalar area_mm2(int triangle) const {

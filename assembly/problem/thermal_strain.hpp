@@ -17,6 +17,7 @@ struct ThermalStrain {
   // σ_zz = ν (σ_xx + σ_yy) − E/(1 + ν) e in plane strain; 0 in plane stress.
   double modulus_zz_MPa = 0;
 
+  bool operator==(const ThermalStrain&) const = default;
   bool is_zero() const { return at_origin == 0 && slope_per_mm.isZero(0); }
   double at(const Eigen::Vector2d& x) const { return at_origin + slope_per_mm.dot(x); }
   // Zero at c.

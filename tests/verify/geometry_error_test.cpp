@@ -177,6 +177,16 @@ TEST(GeometryError, KnowsOfLinesBetweenMaterialsThatAreTakenForPolygons) {
     }
   const testing::Solved alike(BondedRings::scene(true), BondedRings::mesh(0), 2);
   EXPECT_EQ(polygon_groups(*alike.system.problem, 2), "");
+  const auto share = [](const testing::Solved& solved) {
+    const ConstitutiveError error = solved.error();
+    return error.geometry_Nmm / error.squared_Nmm();
+  };
+  Scene warm = BondedRings::scene(true);  // of one material, of which one ring expands
+  warm.materials["inner"].expansion_per_K = 1e-5;
+  warm.temperature_K["inner"] = {{100, 100}};
+  const testing::Solved solved(warm, BondedRings::mesh(0), 2);
+  EXPECT_NE(polygon_groups(*solved.system.problem, 2), "");
+  EXPECT_GT(share(solved), 2 * share(alike));
 }
 
 TEST(GeometryError, IsZeroOfStraightSides) {

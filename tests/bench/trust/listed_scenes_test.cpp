@@ -293,6 +293,17 @@ TEST(ListedScenes, SlidingFarIsSaidOrInaccurate) {
               along_mm > 1)
         << record.status_reason;
   }
+  Scene path = testing::pressed(0.1, {4, -0.01});
+  path.equal_steps = 20;  // each slides less than an edge is long
+  const Record in_steps =
+      examined(testing::posed(path, testing::two_blocks(8, 8)), select_methods("HYBRID").front());
+  EXPECT_NEAR(in_steps.slide_mm.value(), 4, 0.1);
+  Scene carried = testing::pressed(0.1, {4, -0.01});  // both bodies, which do not slide
+  carried.boundary["displacement:floor"].displacement_mm->values.fill({4, 0});
+  carried.equal_steps = 4;
+  const Record together = examined(testing::posed(carried, testing::two_blocks(8, 8)),
+                                   select_methods("HYBRID").front());
+  EXPECT_LT(together.slide_mm.value_or(0), 0.1);
   for (const double along_mm : {0.1, 3.}) {
     Mesh mesh;
     mesh.name = "tyre";

@@ -129,7 +129,8 @@ Joint random_joint(Dice& dice) {
       block.ends.push_back(x);
       block.counts.push_back(1 + dice.below(8));
       block.below.push_back(of_block);
-      is_bonded |= law(of_block, of_base);
+      // Either face may come first.
+      is_bonded |= zone % 2 == 0 ? law(of_block, of_base) : law(of_base, of_block);
     }
     if (is_bonded || is_one) not_into_each_other(first_law);
     const bool is_loaded = is_bonded && dice.below(3) == 0;
