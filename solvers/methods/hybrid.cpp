@@ -71,15 +71,20 @@ bool is_for_active_sets(const ContactSystem& given, const RunControl& control) {
          active_sets_cost_less_than_D(given);
 }
 
-// By active sets, or, where these do not end, by D; with what both took.
+// By active sets, or, where these do not end, by D, which later load cases keep; with what both
+// took.
 Solution solve_by_sets_or_D(const Solve& by_sets, const ContactSystem& given,
-                            const RunControl& control) {
+                            const RunControl& control, bool keeps_D) {
   Solution solution = run(by_sets, given, control);
   const bool goes_on = solution.status == Status::not_converged ||
                        solution.status == Status::inaccurate ||
                        solution.status == Status::breakdown;
   if (goes_on && given.contact.size() <= max_contact_unknowns_of_D) {
-    Solution by_D = solve_with<MultifrontalStiffness>(given, control);
+    solution.solve_again = nullptr;  // frees its K
+    solution.stress = {};
+    RunControl of_D = control;
+    of_D.keep_body = keeps_D;
+    Solution by_D = solve_with<MultifrontalStiffness>(given, of_D);
     for (const Stage stage : all_stages)
       if (const auto& before = solution.times[stage])
         by_D.times[stage] = by_D.times[stage].value_or(0) + *before;
@@ -90,14 +95,14 @@ Solution solve_by_sets_or_D(const Solve& by_sets, const ContactSystem& given,
   if (solution.solve_again)
     solution.solve_again = [again = std::move(solution.solve_again)](const ContactSystem& load_case,
                                                                      const RunControl& of_case) {
-      return solve_by_sets_or_D(again, load_case, of_case);
+      return solve_by_sets_or_D(again, load_case, of_case, true);
     };
   return solution;
 }
 
 Solution solve_hybrid(const ContactSystem& given, const RunControl& control) {
   return is_for_active_sets(given, control)
-             ? solve_by_sets_or_D(solve_by_active_sets, given, control)
+             ? solve_by_sets_or_D(solve_by_active_sets, given, control, control.keep_body)
              : solve_with<MultifrontalStiffness>(given, control);
 }
 
