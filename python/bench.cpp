@@ -124,17 +124,26 @@ std::vector<std::string> run_bench(const std::vector<std::string>& arguments,
   const Options options = parse_options(static_cast<int>(words.size()), words.data());
   if (options.limits.memory_limit_bytes)
     throw UsageError("memory_limit: the heap is not counted in Python (allowed: bench itself)");
+  if (options.dry_run)
+    throw UsageError("dry_run: it would return no records (allowed: bench itself)");
   struct Running {
     Running() { is_running_bench = true; }
     ~Running() { is_running_bench = false; }
   } running;
-  Interruptible interruptible;
-  const PlannedCases planned = planned_cases(options, added);
-  set_threads(options.run.cases.threads);
-  Context context = context_of_run(options);
-  context["cases_planned"] = std::to_string(planned.whole.size());
-  context["plan_sha256"] = fingerprint(planned.whole);
-  return run_cases(planned.part, options.limits, options.output, context).names;
+  const CtrlCInterrupts interrupts;
+  try {
+    const PlannedCases planned = planned_cases(options, added);
+    for (const std::string& missed : planned.short_of)
+      if (PyErr_WarnEx(PyExc_UserWarning, missed.c_str(), 1) != 0) throw py::error_already_set();
+    const Threads threads(options.run.cases.threads);
+    Context context = context_of_run(options);
+    context["cases_planned"] = std::to_string(planned.whole.size());
+    context["plan_sha256"] = fingerprint(planned.whole);
+    return run_cases(planned.part, options.limits, options.output, context).names;
+  } catch (const Interrupted&) {
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw py::error_already_set();
+  }
 }
 
 }  // namespace

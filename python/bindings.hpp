@@ -5,6 +5,7 @@
 // Arrays are views of memory that C++ holds; each keeps its owner alive, and is not writable.
 #pragma once
 
+#include <omp.h>
 #include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -102,15 +103,22 @@ class Interruptible {
   bool has_signal_ = false;
 };
 
+// Throws UsageError.
+int threads_of(int given);
 // Threads of a solve while it lives, those of NumPy's BLAS, too.
 class Threads {
  public:
   explicit Threads(int threads) { set_threads(threads); }
-  ~Threads() { set_blas_threads(former_); }
+  ~Threads() {
+    set_blas_threads(blas_);
+    omp_set_max_active_levels(levels_);
+    omp_set_num_threads(openmp_);
+  }
   Threads(const Threads&) = delete;
 
  private:
-  int former_ = blas_threads();
+  int blas_ = blas_threads(), levels_ = omp_get_max_active_levels(),
+      openmp_ = omp_get_max_threads();
 };
 
 // What C++ writes to standard error as notes while it lives becomes Python's warnings.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/run_parts.hpp"
@@ -22,8 +23,16 @@ namespace {
 std::shared_ptr<BoundProblem> posed(const py::object& mesh, const py::object& scene,
                                     const py::kwargs& keys) {
   Options options;
-  options.dry_run = true;  // writes nothing
+  options.dry_run = true;                                             // writes nothing
+  options.limits.others_s = std::numeric_limits<double>::infinity();  // the process is Python's
   options.run.meshes = py::str(mesh);
+  static std::mutex posing;  // standard error is the process's
+  std::unique_lock alone(posing, std::defer_lock);
+  {
+    const py::gil_scoped_release release;
+    alone.lock();
+  }
+  NotesAsWarnings notes;
   std::vector<SceneFile> files;
   if (py::isinstance<py::dict>(scene)) {
     files = {scene_file_of(json_text(to_json(scene)), "scene")};
@@ -39,7 +48,6 @@ std::shared_ptr<BoundProblem> posed(const py::object& mesh, const py::object& sc
     files.front().scene.name = name;
   }
   auto problem = std::make_shared<BoundProblem>();
-  NotesAsWarnings notes;
   {
     const py::gil_scoped_release release;
     std::vector<PosedScene> all = posed_scenes(options, std::move(files));
@@ -128,6 +136,8 @@ std::shared_ptr<Levels> adapted(const std::shared_ptr<BoundProblem>& problem,
                                 int threads, double timeout) {
   if (error.has_value() == unknowns.has_value() || (error && !(*error > 0 && *error < 1)))
     throw UsageError("adapt: error or unknowns (allowed: one of them, an error from 0 to 1)");
+  if (marking && !(*marking > 0 && *marking <= 1))
+    throw UsageError(fmt::format("adapt: marking: {} (allowed: above 0, up to 1)", *marking));
   RunSettings run;
   run.adapt.goals = {AdaptGoal{error, unknowns}};
   read_degree(py::str(degree), false, run);
@@ -137,7 +147,7 @@ std::shared_ptr<Levels> adapted(const std::shared_ptr<BoundProblem>& problem,
   const AdaptiveSettings settings = {.goals = run.adapt.goals,
                                      .marking = marking,
                                      .timeout_s = timeout,
-                                     .threads = threads,
+                                     .threads = threads_of(threads),
                                      .keeps_answers = true};
   return std::make_shared<Levels>(Levels{problem, method, settings, scene.definition(),
                                          AdaptiveLoop(scene.scene, mesh, method, settings)});

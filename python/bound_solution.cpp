@@ -25,12 +25,26 @@ void solve(BoundSolution& answer, ContactSystem& system, const Deadline& deadlin
   if (settings.tightened) settings.tolerance = first_tolerance(answer.method, settings);
   RunControl control = control_of(settings, deadline);
   control.histories = true;
-  if (answer.method.tune) method = answer.method.tune(system, control).solve;
+  if (answer.method.tune) {
+    Solve tuned;
+    const auto tune = [&](const ContactSystem& of, const RunControl& with) {
+      tuned = answer.method.tune(of, with).solve;
+      return Solution();
+    };
+    Solution untuned = run(tune, system, control);
+    if (!tuned) {
+      untuned.message = "while choosing parameters: " + untuned.message;
+      answer.steps = {{system, std::move(untuned)}};
+      return;
+    }
+    method = std::move(tuned);
+  }
+  const std::shared_ptr<const Problem> first = system.problem;  // of programs it has chords
   const auto count = static_cast<std::size_t>(count_of_steps(*answer.problem->body()));
   for (int attempt = 1;; ++attempt) {
     answer.steps.clear();
     double watched_s = 0;
-    system.set_load_case(answer.problem->body());
+    system.set_load_case(first);
     const auto start = std::chrono::steady_clock::now();
     Solution last = solve_path(
         method, system, control,
@@ -177,7 +191,7 @@ CaseSettings settings_of(const py::kwargs& given) {
     else if (key == "contact_tolerance")
       settings.contact_tolerance = value.cast<double>();
     else if (key == "threads")
-      settings.threads = value.cast<int>();
+      settings.threads = threads_of(value.cast<int>());
     else if (key == "stop")
       settings.stop = word(value, stop_of, all_stops, "stop");
     else

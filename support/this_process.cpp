@@ -59,6 +59,18 @@ void catch_interrupts() {
   if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
 }
 
+CtrlCInterrupts::CtrlCInterrupts() {
+  sigaction(SIGINT, nullptr, &former_);
+  if (former_.sa_handler == SIG_IGN) return;
+  struct sigaction action = {};
+  action.sa_handler = on_interrupt;
+  sigaction(SIGINT, &action, &former_);
+}
+CtrlCInterrupts::~CtrlCInterrupts() {
+  sigaction(SIGINT, &former_, nullptr);
+  interrupting_signal = 0;
+}
+
 void interrupt_with_caller() { prctl(PR_SET_PDEATHSIG, SIGHUP); }
 
 bool is_interrupted() { return interrupting_signal != 0; }

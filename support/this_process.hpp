@@ -1,6 +1,7 @@
 // How a command's process begins, is interrupted, and ends.
 #pragma once
 
+#include <csignal>
 #include <stdexcept>
 #include <string>
 
@@ -26,6 +27,18 @@ struct Interrupted : std::runtime_error {
 void catch_interrupts();
 // SIGHUP comes, too, when the process that started this program ends.
 void interrupt_with_caller();
+// The same for Ctrl-C alone, while it lives: then what was before holds, and nothing is
+// interrupted.
+class CtrlCInterrupts {
+ public:
+  CtrlCInterrupts();
+  ~CtrlCInterrupts();
+  CtrlCInterrupts(const CtrlCInterrupts&) = delete;
+  CtrlCInterrupts& operator=(const CtrlCInterrupts&) = delete;
+
+ private:
+  struct sigaction former_ = {};
+};
 bool is_interrupted();
 void throw_if_interrupted();
 

@@ -1,10 +1,9 @@
 #include "support/time_limit.hpp"
 
-#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
+#include <cmath>
 
 #include "support/errors.hpp"
 #include "support/messages.hpp"
@@ -21,27 +20,35 @@ void end_over_time(int) {
   _exit(wrong_usage);
 }
 
-void set_timer(double seconds) {
+itimerval timer_of(double seconds) {
   constexpr double shortest_s = 1e-3, longest_s = 1e9;  // 0 would be none
-  const double within_s = seconds > 0 ? std::clamp(seconds, shortest_s, longest_s) : 0;
+  const double within_s = std::clamp(seconds, shortest_s, longest_s);
   itimerval timer = {};
   timer.it_value.tv_sec = static_cast<time_t>(within_s);
   timer.it_value.tv_usec =
       static_cast<suseconds_t>(1e6 * (within_s - static_cast<double>(timer.it_value.tv_sec)));
-  setitimer(ITIMER_REAL, &timer, nullptr);
+  return timer;
 }
 
 }  // namespace
 
-TimeLimit::TimeLimit(double seconds, const std::string& complaint) {
+TimeLimit::TimeLimit(double seconds, const std::string& complaint)
+    : is_set_(std::isfinite(seconds)) {
+  if (!is_set_) return;
   complaint_when_over = shown_message(complaint) + "\n";
-  std::signal(SIGALRM, end_over_time);
-  set_timer(seconds);
+  struct sigaction action = {};
+  action.sa_handler = end_over_time;
+  sigaction(SIGALRM, &action, &former_action_);
+  const itimerval timer = timer_of(seconds);
+  setitimer(ITIMER_REAL, &timer, &former_timer_);
 }
 
 TimeLimit::~TimeLimit() {
-  set_timer(0);
-  std::signal(SIGALRM, SIG_DFL);
+  if (!is_set_) return;
+  constexpr itimerval none = {};
+  setitimer(ITIMER_REAL, &none, nullptr);
+  sigaction(SIGALRM, &former_action_, nullptr);
+  setitimer(ITIMER_REAL, &former_timer_, nullptr);
 }
 
 }  // namespace airybench

@@ -1,6 +1,9 @@
 """Methods written in Python, and runs of bench from it.  python3 -m unittest FILE"""
 import ctypes
 import os
+import signal
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -171,8 +174,29 @@ class BenchTest(unittest.TestCase):
             self.assertLessEqual(table.error_total.min(), 0.05)
             with self.assertRaisesRegex(ab.InputError, "memory_limit"):
                 ab.bench("Mesh0", "HYBRID", out=out, memory_limit=100)
+            with self.assertRaisesRegex(ab.InputError, "dry_run"):
+                ab.bench("Mesh0", "HYBRID", out=out, dry_run=True)
             with self.assertRaisesRegex(ab.InputError, "every name once"):
                 ab.bench("Mesh0", [mine, "MINE"], out=out)
+
+    def test_ctrl_c_ends_a_run(self) -> None:
+        with tempfile.TemporaryDirectory() as out:
+            script = f"""if 1:
+                import airybench as ab
+                try:
+                    ab.bench(["Mesh0", "Mesh4"], ["HYBRID", "SYMMLQ:NONE"], out={out!r}, timeout=1000)
+                except KeyboardInterrupt:
+                    print("interrupted")
+            """
+            with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                  text=True) as ran:
+                for line in ran.stderr:
+                    if "HYBRID" in line:
+                        break
+                ran.send_signal(signal.SIGINT)
+                out_text, err_text = ran.communicate()
+                self.assertEqual(out_text, "interrupted\n", err_text)
+            self.assertEqual(set(ab.read(out).status), {"ok"})
 
     def test_contact_problems_of_files(self) -> None:
         with tempfile.TemporaryDirectory() as out:

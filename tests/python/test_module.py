@@ -11,6 +11,7 @@ import tempfile
 import time
 import unittest
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -156,6 +157,9 @@ class ProblemTest(unittest.TestCase):
                             (lambda: problem.solve("NONE"), "NONE"),
                             (lambda: problem.solve("3STEP*"), "methods"),
                             (lambda: problem.solve(tol=1), "tol: no such setting"),
+                            (lambda: problem.solve(threads=0), "threads: 0"),
+                            (lambda: problem.adapt(error=0.1, threads=-1), "threads: -1"),
+                            (lambda: problem.adapt(error=0.1, marking=2), "marking: 2"),
                             (lambda: problem.solve(contact="newtn"), "newtn.*newton"),
                             (lambda: problem.judge(), "solution or forces"),
                             (lambda: problem.judge(other), "another problem"),
@@ -190,6 +194,26 @@ class ProblemTest(unittest.TestCase):
             warnings.simplefilter("error")
             with self.assertRaisesRegex(UserWarning, "no wall"):
                 ab.Problem(block, displacement_mm=[0, -0.001])
+
+    def test_threads_pose_problems_one_after_the_other(self) -> None:
+        with ThreadPoolExecutor(4) as pool:
+            names = [repr(problem) for problem in pool.map(ab.Problem, [f"Mesh{k % 4}" for k in range(16)])]
+        self.assertEqual(len(set(names)), 4)
+
+    def test_timers_of_the_caller_go_on(self) -> None:
+        former = signal.signal(signal.SIGALRM, lambda *_: None)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 1000)
+            ab.Problem("Mesh0")
+            self.assertGreater(signal.setitimer(signal.ITIMER_REAL, 0)[0], 900)
+            self.assertTrue(callable(signal.getsignal(signal.SIGALRM)))
+        finally:
+            signal.signal(signal.SIGALRM, former)
+
+    def test_a_failed_search_for_parameters_is_a_solution(self) -> None:
+        solution = ab.Problem("Mesh0").solve("ALM", timeout=1e-6)
+        self.assertEqual(solution.status, "timeout")
+        self.assertIn("while choosing parameters", solution.message)
 
     def test_ctrl_c_ends_a_solve(self) -> None:
         script = """if 1:
