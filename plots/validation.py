@@ -34,6 +34,16 @@ PUBLISHED = dict(color="black", linestyle="", marker="o", markersize=6, fillstyl
 LEAST = 1e-6  # deviation that is shown
 COLUMNS = 3  # of profiles
 PROGRAM = "EXTERNAL:"
+CASES = Path(__file__).resolve().parents[1] / "validation"
+
+
+def words_of(case: str) -> dict:
+    """Title and source as the case's file has them now: they were not measured."""
+    path = CASES / f"{case}.json"
+    if not path.exists():
+        return {}
+    now = json.loads(path.read_text(encoding="utf-8"))
+    return {key: now[key] for key in ("title", "source")}
 
 
 def read(folder: Path) -> list[dict]:
@@ -47,7 +57,7 @@ def read(folder: Path) -> list[dict]:
             for answer in case["answers"]:
                 if len(answer["values"]) != len(case["quantities"]):
                     raise ValueError(f"{case['case']}: {answer['method']}: not one value per quantity")
-        return cases
+        return [case | words_of(case["case"]) for case in cases]
     except (ValueError, KeyError, TypeError) as error:
         raise RecordsError(f"{path}: {error}; expected what bench validate writes")
 

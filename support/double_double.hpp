@@ -1,8 +1,10 @@
 // A number as the sum of two doubles, high + low, |low| ≤ ulp(high)/2: about 106 bits of mantissa
 // with the exponents of double, in a few operations of double each. With u = 2⁻⁵³ the relative
-// errors are at most 3 u² of a sum, 5 u² of a product, 15 u² of a quotient. (Joldes, Muller &
-// Popescu, Tight and rigorous error bounds for basic building blocks of double-word arithmetic, ACM
-// TOMS 44, 2017, doi:10.1145/3121432: algorithms 6, 11 and 12, 17.)
+// errors are at most 3 u² of a sum, 5 u² of a product, and about 15 u² of a quotient. (Joldes,
+// Muller & Popescu, Tight and rigorous error bounds for basic building blocks of double-word
+// arithmetic, ACM TOMS 44, 2017, doi:10.1145/3121432: algorithms 6, 10, and 17 with a shorter
+// product than its proof has; the product's bound is that of Muller & Rideau 2022,
+// doi:10.1145/3484514.)
 //
 // A compiler may fuse what is here: the products whose rounding is taken away are used otherwise,
 // too, and stay. Infinities become NaN.

@@ -35,7 +35,7 @@ std::optional<double> median_uncertainty(const std::vector<double>& samples);
 // 95 % intervals of the percentile bootstrap: the 2.5 % and 97.5 % quantiles over 2000 resamplings
 // with replacement. No sample may be empty; a single value counts as exact. Repetitions of one run
 // show the uncertainty within that run only. With a fixed seed and no std:: distribution, all
-// machines agree. Efron, Tibshirani, "An Introduction to the Bootstrap", 1993, section 13.
+// machines agree. Efron, Tibshirani, "An Introduction to the Bootstrap", 1993, chapter 13.
 Interval bootstrap_median(const std::vector<double>& samples);
 Interval bootstrap_ratio_of_medians(const std::vector<double>& numerator,
                                     const std::vector<double>& denominator);

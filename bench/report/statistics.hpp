@@ -15,7 +15,8 @@ namespace airybench {
 //   N(u; m, n) = coefficient of q^u in Π_{i=1..m} (1 - q^(n+i)) / (1 - q^i),
 // the Gaussian binomial. Otherwise U is taken as normal, with
 //   Var U = m n / 12 [ N + 1 - Σ (t³ - t) / (N (N - 1)) ],   N = m + n, t: sizes of the ties,
-// and a continuity correction of 1/2. Lehmann, "Nonparametrics", 1975, section 1.5.
+// and a continuity correction of 1/2. Lehmann, "Nonparametrics: Statistical Methods
+// Based on Ranks", 1975, sections 1.3 and 1.4.
 
 struct MannWhitney {
   double u = 0;  // > m n / 2: b is larger

@@ -8,10 +8,10 @@
 //   r = (D + m N Nᵀ) F − (G − N (a_k + m l)) − ḡ
 //
 // is an ordinary contact problem; then a_{k+1} = a, and m is 10 times larger. (Proximal steps of
-// the method of multipliers, Rockafellar 1976, doi:10.1137/0314056.) What stays unbalanced falls by
-// 1 + m c per step, c the contact's stiffness against the motion: where there is none, and a load,
-// it stays. As m N Nᵀ costs digits of D, firmer springs follow. Without springs F solves the
-// problem, too, with a_{k+1}: r is the same.
+// the method of multipliers, Rockafellar 1976, doi:10.1287/moor.1.2.97.) What stays unbalanced
+// falls by 1 + m c per step, c the contact's stiffness against the motion: where there is none, and
+// a load, it stays. As m N Nᵀ costs digits of D, firmer springs follow. Without springs F solves
+// the problem, too, with a_{k+1}: r is the same.
 //
 // Motions that no contact resists (motion_spaces) are left out; their amounts are zero.
 #pragma once

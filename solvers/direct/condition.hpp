@@ -7,7 +7,7 @@
 // ‖Â‖₁ is exact. ‖Â⁻¹‖₁ = max ‖Â⁻¹x‖₁ over ‖x‖₁ = 1 is a convex function's maximum on a polytope;
 // one walks from vertex to vertex along its subgradient (Hager 1984, doi:10.1137/0905023), and one
 // more solve with an alternating vector guards against what that overlooks (Higham 1988,
-// doi:10.1145/50063.214386, algorithm CONEST). The result is a lower bound of κ₁, seldom below a
+// doi:10.1145/50063.214386, algorithm SONEST). The result is a lower bound of κ₁, seldom below a
 // third of it.
 #pragma once
 

@@ -193,7 +193,7 @@ std::vector<int> fronts_of_places(const Elimination& elimination) {
 }
 
 // The fronts' tree, its children so ordered that few updates wait at a time (Liu 1986,
-// doi:10.1145/6497.6499): by how much more a child needs than it leaves.
+// doi:10.1145/7921.11325): by how much more a child needs than it leaves.
 void order_fronts(const std::vector<int>& front_at, Elimination& result) {
   const int count = static_cast<int>(result.fronts.size());
   std::vector<int> roots;
