@@ -27,6 +27,15 @@ from messages import messages_escaped
 from parts import PROJECT, RESULTS, Refused, chosen, commit_of, parts_of
 
 
+def make_empty(work: Path) -> None:
+    """For --quick, which always begins anew."""
+    is_of_quick = (work / "log.jsonl").exists() and not (work / "source").exists()
+    if work.exists() and not is_of_quick and (not work.is_dir() or any(work.iterdir())):
+        raise Refused(f"--work: {work}: is not empty (allowed with --quick: a new folder, or one of --quick)")
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+
+
 def run(args: argparse.Namespace) -> int:
     if args.program and not args.quick:
         raise Refused("--program: only with --quick (otherwise the program is of one revision)")
@@ -38,8 +47,7 @@ def run(args: argparse.Namespace) -> int:
         return check(parts, every, args.revision)
     if args.quick:
         work = args.work or PROJECT / "build/reproduce-quick"
-        shutil.rmtree(work, ignore_errors=True)
-        work.mkdir(parents=True)
+        make_empty(work)
         shop = Workshop(work, PROJECT, args.program, thin=True)
     else:
         work = args.work or PROJECT / "build/reproduce"

@@ -23,6 +23,19 @@ def replaced(test: unittest.TestCase, *what: object) -> None:
     test.addCleanup(patch.stop)
 
 
+class QuickTest(unittest.TestCase):
+    def test_no_folder_of_others_is_emptied(self) -> None:
+        with tempfile.TemporaryDirectory() as place:
+            mine = Path(place) / "mine"
+            mine.touch()
+            program = Path(measuring.__file__).with_name("reproduce.py")
+            ran = subprocess.run([sys.executable, program, "--quick", f"--work={place}"], capture_output=True,
+                                 text=True, check=False)
+            self.assertEqual(2, ran.returncode)
+            self.assertIn(f"--work: {place}: is not empty (allowed with --quick:", ran.stderr)
+            self.assertTrue(mine.exists())
+
+
 class InstallTest(unittest.TestCase):
     def setUp(self) -> None:
         place = tempfile.TemporaryDirectory()
