@@ -92,7 +92,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--check", a.check, "Compare the repository's meshes with the paper's Tab. 1")
       ->group(what);
   auto* tooth =
-      app.add_flag("--tooth", a.tooth, "Make a tooth or rack of own dimensions")->group(what);
+      app.add_flag("--tooth", a.tooth, "Make a tooth or rack of given dimensions")->group(what);
   app.add_option("--convert", a.model,
                  "Make a mesh of a model: " + std::string(airybench::model_extensions))
       ->type_name("MODEL")
@@ -135,7 +135,7 @@ void declare(CLI::App& app, Arguments& a) {
   count("--contact-edges", a.edges.contact, "Edges on the tips, all together");
   count("--force-edges", a.edges.force, "Edges on the free faces");
   count("--displacement-edges", a.edges.displacement, "Edges on the held face");
-  count("--vertices", a.vertices, "Exact number of vertices (default: as it comes)");
+  count("--vertices", a.vertices, "Exact number of vertices (default: as many as Gmsh makes)");
   count("--teeth", a.dimensions.teeth, "1: a single tooth; more: a rack")->capture_default_str();
   length("--root-half-height", a.dimensions.root_half_height, "Half height of the root");
   length("--length", a.dimensions.length, "Length of a tooth");

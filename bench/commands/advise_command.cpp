@@ -21,6 +21,7 @@
 #include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
 #include "support/called_as.hpp"
+#include "support/folder_lock.hpp"
 #include "support/shortened.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
@@ -103,8 +104,9 @@ std::string command_of(const Options& options, const Record& r, bool is_adapted)
       text += " --scene=" + shell_word(options.run.scenes.front().string());
   } else {
     const std::filesystem::path file = recorded_file(r.mesh_file, options.output.folder);
+    const std::string start = r.mesh.substr(0, r.mesh.rfind('+'));  // as adapted_scenes.hpp has it
     text += shell_word(file.string()) +
-            " --scene=" + shell_word((file.parent_path() / (r.scene + ".json")).string());
+            " --scene=" + shell_word((file.parent_path() / start / (r.scene + ".json")).string());
   }
   if (is_adapted) {
     text += fmt::format(" --adapt={},levels=last", text_of(options.run.adapt.goals));
@@ -279,6 +281,8 @@ int advise_command(int argc, const char* const* argv) {
     check_can_write(options.output.folder / "advice.csv");
   catch_interrupts();
   const PosedScene start = one_posed_scene(options);
+  make_folder(options.output.folder);
+  const FolderLock lock(options.output.folder);  // its meshes are read again
   const std::vector<Method> chosen = select_methods(options.run.methods);
   const AdaptedScenes adapted = adapted_scenes(start, options);
   const OfCurves of_curves(start, options);
@@ -295,15 +299,13 @@ int advise_command(int argc, const char* const* argv) {
       read_committed_records({blank_record(compared.front(), options.limits)},
                              options.output.folder)
           .records;
+  std::vector<Case> refined;
   std::vector<Record> uniform;
   Output next = options.output;
   if (is_refined) {
-    uniform =
-        run_cases(
-            plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
-                       select_methods(uniform_candidate), options.run),
-            options.limits, options.output, context)
-            .records();
+    refined = plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
+                         select_methods(uniform_candidate), options.run);
+    uniform = run_cases(refined, options.limits, options.output, context).records();
     next.append = true;
     const double factor = time_of_machine(uniform.back(), past);
     for (Record& record : past)
@@ -319,10 +321,12 @@ int advise_command(int argc, const char* const* argv) {
     rows.push_back(of_curves.has(record)
                        ? advice_of(record, of_curves.options, of_curves.is_refined())
                        : advice_of(record, options, is_refined));
-  std::ranges::stable_sort(
-      rows, {}, [&](const Advice& row) { return std::pair(!row.meets(goal), row.whole_time_s()); });
-  const bool met = rows.front().meets(goal);
+  std::ranges::stable_sort(rows, {}, &Advice::whole_time_s);
   for (const Record& record : uniform) rows.push_back(advice_of(record, options, false));
+  std::ranges::stable_sort(rows, {}, [&](const Advice& row) {
+    return std::pair(!row.meets(goal), row.meets(goal) ? row.whole_time_s() : 0);
+  });
+  const bool met = rows.front().meets(goal);
   if (is_refined)
     if (const auto scaled = scaled_uniform(uniform[0], uniform[1], goal)) rows.push_back(*scaled);
   rows.insert(rows.end(), left_out.begin(), left_out.end());
@@ -341,8 +345,10 @@ int advise_command(int argc, const char* const* argv) {
   fmt::print("best: {}, {}{}:\n  {}\nalso in {}\n", best.mesh, best.method, ties_of(rows, goal),
              rows.front().command, (options.output.folder / "advice.csv").string());
 
-  Case with_fields = *std::ranges::find(
-      compared, best.method, [](const Case& c) -> const auto& { return c.method.name; });
+  compared.insert(compared.end(), refined.begin(), refined.end());
+  Case with_fields = *std::ranges::find_if(compared, [&](const Case& c) {
+    return c.method.name == best.method && mesh_name_of(c.posed.problem) == best.mesh;
+  });
   with_fields.settings.fields = true;
   Limits once = options.limits;
   once.repetitions = 1;

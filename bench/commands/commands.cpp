@@ -13,7 +13,7 @@ constexpr Command commands[] = {
     {"new-scene", "MODEL", "a scene for a model, to fill in", new_scene_command},
     {"new-external", "NAME", "a template of an external solver, and its declaration",
      new_external_command},
-    {"check", "PROGRAM", "the mistakes of another program, found by small cases", check_command},
+    {"check", "DECLARATION", "finds the mistakes of another program by small cases", check_command},
     {"compare", "A,… B,…", "runs of two programs, case by case: faster, slower, or undecided",
      compare_command},
     {"track", "", "a run that is added to a history, and its regressions", track_command},
@@ -39,7 +39,7 @@ Main options of a run ({bench} --help-all: every option, the exit codes, more ex
   --scene=FILES      loads, friction, materials; default: the documented tooth or rack
   --method=METHODS   names or globs; default: the paper's, for your own bodies HYBRID and P2
   --adapt=GOALS      refine where the error is, until it is below 1%, or until 50000 unknowns
-  --study=NAME       contact, error, stability, adapted, ...: what answers one question
+  --study=NAME       cases that answer one question: contact, error, stability, adapted, ...
   --external=FILES   other programs next to ours
   --fields           stresses, displacements and total errors, too
   --dry-run          what would run, and how long it would take

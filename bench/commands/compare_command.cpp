@@ -26,7 +26,7 @@ Verdicts  faster, slower    p (Mann-Whitney of the runs' medians, adjusted by Ho
           not separated     chance, drift or the time of day can be the reason, or there are too few
                             runs: how many would do is printed below
 Repetitions within a run are not independent: the unit is the run. So run A and B in turn, each time
-into a folder of its own. With one run each only statuses can fail.
+into a separate folder. With one run each only statuses can fail.
 
 Exit status  0  no regression
              1  a case is slower, or was ok in all runs of A and is not in one of B
@@ -89,7 +89,7 @@ int compare_command(int argc, const char* const* argv) {
       ->required();
   app.add_option("B", b, "folders of the second program")->required();
   add_number(app, "--minimum-effect", Least::zero, 1000, minimum_effect_percent,
-             "per cent: smaller changes of a time are no change");
+             "smallest change of a time that counts, in per cent");
   app.add_option("--names", names, "A,B: names of the programs for the first line");
   app.add_option("--out", out, "also write the comparison to this file, *.md or *.json");
   parse_command_line(app, argc, argv);

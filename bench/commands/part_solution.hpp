@@ -30,9 +30,10 @@ struct SolvedPart {
   std::filesystem::path fields;  // without extensions
   Json part;                     // its answer; null: there is none
 };
-// By HYBRID; more: other methods on its last level, whose records follow in the result. Empty: no
-// level has an answer. Prints progress to standard error.
-std::optional<SolvedPart> solved_part(const PosedScene& start, Options options,
+// By HYBRID; more: other methods on its last level, whose records follow in the result. Where
+// CaseSettings::in_eight_steps finds a change above the goal, and no number of steps is asked for,
+// the load is applied in eight. Empty: no level has an answer. Prints progress to standard error.
+std::optional<SolvedPart> solved_part(const PosedScene& start, const Options& options,
                                       const PartGoal& goal, const std::vector<Method>& more = {});
 
 // The error that a quantity has now; none: it is not known. of: "contact:sole"; empty: all faces.

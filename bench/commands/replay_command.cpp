@@ -133,6 +133,8 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   take(context, "max_repetitions", limits.max_repetitions);
   take(context, "timeout_s", limits.timeout_s);
   take(context, "long_case_s", limits.long_case_s);
+  if (!context_word(context, "others_s").empty())
+    take(context, "others_s", limits.others_s.emplace());
   if (!context_word(context, "precision").empty())
     take(context, "precision", limits.precision.emplace());
   if (context_word(context, "memory_limit_bytes") != "none") {

@@ -18,6 +18,7 @@
 #include "bench/run/threads_at_hand.hpp"
 #include "support/atomic_file.hpp"
 #include "support/called_as.hpp"
+#include "support/folder_lock.hpp"
 #include "support/shortened.hpp"
 #include "support/this_process.hpp"
 
@@ -25,10 +26,12 @@ namespace airybench {
 namespace {
 
 constexpr const char* solve_footer = R"(
-MODEL is a mesh or a Gmsh model; an input deck (.inp) contains its scene. The mesh is adapted to the total error (relative, in energy), then
-until the largest stress, where it is bounded, is known to twice that error, a finer mesh gains less than a tenth, or five more meshes
-are done. With :force or :pressure half the interval of F_n or of the largest pressure must be that narrow, of all faces together and of
-each that carries more than 1 % of the load, unless two rounds of finer meshes hardly narrow it.
+MODEL is a mesh or a Gmsh model; an input deck (.inp) contains its scene. The mesh is adapted to the total error (relative, in energy). Then
+it is refined at the largest stress, if that is bounded, until its uncertainty is below twice the error, a finer mesh reduces it by less
+than a tenth, or five more meshes are done. With :force or :pressure half the interval of F_n or of the largest pressure must be that
+narrow, of all faces together and of each that carries more than 1 % of the load; it ends after five rounds of finer meshes, or where
+two hardly narrow it. Where faces slip, and eight load steps change the stresses by more than the error, the load is applied
+in eight; --steps fixes their number.
 In OUT: the picture figures/part.png, fields (NAME.faces.csv, NAME.vtu, NAME.answer.json), meshes and
 records; with --html also part.html, one self-contained page with the picture and all that is printed.
 
@@ -59,7 +62,7 @@ PartGoal goal_of(const std::string& text) {
 Options parse_solve(int argc, const char* const* argv, PartGoal& goal, bool& html) {
   Options options = options_of_part();
   options.output.folder = "results/solve";
-  options.run.cases.picture = options.run.needs_scene = true;
+  options.run.cases.picture = options.run.cases.in_eight_steps = options.run.needs_scene = true;
   std::string error = "1%", degree = "auto";
   CLI::App app("Forces, pressure, stress and displacement of a part, each with its possible error.",
                "{bench} solve");
@@ -67,7 +70,7 @@ Options parse_solve(int argc, const char* const* argv, PartGoal& goal, bool& htm
   add_part(app, options.run);
   app.add_option("--error", error, "total error, relative: 1%, 1%:force, 1%:pressure")
       ->capture_default_str();
-  app.add_option("--degree", degree, "degree of the stresses: 2 to 4, auto")->capture_default_str();
+  app.add_option("--degree", degree, "degree of the stresses: 1 to 4, auto")->capture_default_str();
   add_number(app, "--timeout", Least::above_zero, max_limit, options.limits.timeout_s,
              "limit of one solve in seconds");
   add_memory_limit(app, options.limits);
@@ -140,6 +143,7 @@ int solve_command(int argc, const char* const* argv) {
   const KeptNotes said(std::cerr);
   const PosedScene start = one_posed_scene(options);
   make_folder(options.output.folder);
+  const FolderLock lock(options.output.folder);  // its meshes and fields are read again
   set_threads(options.run.cases.threads);
   const std::optional<SolvedPart> answer = solved_part(start, options, goal);
   if (!answer) return some_case_failed;

@@ -64,7 +64,7 @@ TrackOptions parse_track(int argc, const char* const* argv) {
                               "add the records of this results folder instead of running");
   app.add_flag("--judge-only", options.judge_only, "judge the newest night again")->excludes(from);
   add_number(app, "--minimum-effect", Least::zero, 1000, options.minimum_effect_percent,
-             "per cent: smaller changes of a time are no change");
+             "smallest change of a time that counts, in per cent");
   add_whole(app, "--nights-after", 2, 30, options.rules.min_after,
             "nights after a change of a time that confirm it");
   const char* const* const end = argv + argc;
@@ -124,8 +124,9 @@ std::vector<std::string> nightly_arguments(const std::vector<std::string>& own,
                        [&](const std::string& argument) { return is_option(argument, name); });
   };
   std::vector<std::string> arguments = {"--out=" + out};
-  if (!has("--mesh") && !has("--figure")) arguments.emplace_back("--mesh=Mesh0..Mesh2");
-  if (!has("--method") && !has("--figure"))
+  const bool has_own_cases = has("--figure") || has("--problem");
+  if (!has("--mesh") && !has_own_cases) arguments.emplace_back("--mesh=Mesh0..Mesh2");
+  if (!has("--method") && !has_own_cases)
     arguments.emplace_back(
         "--method=3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,HYBRID,P2,ALM:r=20,rho=20,SDTIC6,3STEPCG6");
   if (!has("--repetitions")) arguments.emplace_back("--repetitions=9");

@@ -23,6 +23,7 @@
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
+#include "support/folder_lock.hpp"
 #include "support/lagrange.hpp"
 #include "support/lists.hpp"
 #include "support/text_table.hpp"
@@ -43,7 +44,7 @@ Exit status  0  every value of the method that adapted the mesh agrees
 
 Examples
   {bench} validate
-  {bench} validate 'hertz*,kirsch' --external=mine.json
+  {bench} validate 'hertz*,kirsch*' --external=mine.json
 )";
 
 // Our numbers for those published, and half the width of the interval of a single one, or of the
@@ -319,6 +320,8 @@ void judge(const PublishedCase& of, const AskedCases& asked, std::vector<Judged>
   std::vector<SceneFile> scenes =
       of.scene ? std::vector<SceneFile>{*of.scene} : read_scenes(options.run);
   const std::vector<PosedScene> posed = posed_scenes(options, std::move(scenes));
+  // Levels of the run that this one replaces, which the records so far would seem to need.
+  std::filesystem::remove_all(options.output.folder / "meshes" / posed.front().scene_name);
   const auto add = [&](const Record& record, const std::filesystem::path& fields, bool is_first) {
     for (const PublishedQuantity& quantity : of.quantities)
       all.push_back(
@@ -351,10 +354,7 @@ int validate_command(int argc, const char* const* argv) {
   check_takes_records(asked.options.output.folder);
   catch_interrupts();
   make_folder(asked.options.output.folder);
-  // Those of the run that this one replaces, which the records of the cases after the first would
-  // seem to need.
-  if (std::filesystem::exists(asked.options.output.folder / "records.jsonl"))
-    std::filesystem::remove_all(asked.options.output.folder / "meshes");
+  const FolderLock lock(asked.options.output.folder);  // its meshes and fields are read again
   set_threads(asked.options.run.cases.threads);
   std::vector<Judged> all;
   for (const PublishedCase& of : cases) {

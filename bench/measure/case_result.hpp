@@ -80,7 +80,8 @@ struct CaseResult {
   bool is_right_on_the_mesh = false;  // what is inaccurate is the mesh, or small displacements
   std::string polygons = {};
   DiscretisationError of_mesh = {};
-  std::vector<StepResult> steps_in_halves = {};
+  std::vector<StepResult> steps_in_halves = {}, in_eight_steps = {};
+  std::optional<double> change_in_eight_steps = {};  // of the stresses, relative, in energy
   // Measured:
   std::optional<double> extrapolated_time_s = {};
   Memory memory = {};

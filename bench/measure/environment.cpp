@@ -121,6 +121,8 @@ Context context_of_run(const Options& options) {
   };
   set("target_error", run.cases.target_error);
   set("timeout_s", limits.timeout_s);
+  set_if_any("others_s", limits.others_s);
+  if (run.cases.fields) set("fields", "yes");
   set("long_case_s", limits.long_case_s);
   set("repetitions", limits.repetitions);
   set("interleaved", limits.interleave ? "yes" : "no");

@@ -323,8 +323,18 @@ SolvedFields own_fields(const ContactSystem& system, const Solution& solution) {
   return fields;
 }
 
+void remove_files_of_fields(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code error;  // what cannot be removed cannot be replaced: that is said then
+  for (const char* part : {".stress.csv", ".displacement.csv", ".contact.csv", ".boundary.csv",
+                           ".faces.csv", ".answer.json", ".von_mises.csv", ".outline.csv",
+                           ".points.json", ".error.csv", ".mean.csv", ".vtu", ".contact.vtu"})
+    if (const auto file = folder / (name + part); !std::filesystem::is_directory(file, error))
+      std::filesystem::remove(file, error);
+}
+
 void write_fields(const std::filesystem::path& folder, const std::string& name,
                   const SolvedFields& fields, FieldParts parts) {
+  remove_files_of_fields(folder, name);
   const Problem& problem = *fields.system.problem;
   const StressField& stress = fields.solution.stress;
   const ContactPicture contact = contact_picture(fields.system, fields.solution, fields.w);
@@ -333,11 +343,7 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
     write_file_atomically(folder / (name + part), text);
   };
   const auto write_if = [&](bool is_known, const char* part, const auto& text) {
-    std::error_code none;
-    if (is_known)
-      write(part, text());
-    else
-      std::filesystem::remove(folder / (name + part), none);
+    if (is_known) write(part, text());
   };
   write(".contact.csv", contact_csv(contact));
   write(".contact.vtu", vtu_of_contact(contact));

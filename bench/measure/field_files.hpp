@@ -29,7 +29,7 @@
 //                     triangle)
 //   NAME.contact.vtu  a line per contact edge with two points: the columns of NAME.contact.csv
 //                     but the length; state 0 open, 1 stick, 2 slip
-// Unknown values are left out.
+// Unknown values are left out, and no file of an earlier answer of that name stays.
 #pragma once
 
 #include <filesystem>
@@ -79,6 +79,8 @@ struct SolvedFields {
 
 // Without error and mean; w if the solution has its own, and finite.
 SolvedFields own_fields(const ContactSystem& system, const Solution& solution);
+
+void remove_files_of_fields(const std::filesystem::path& folder, const std::string& name);
 
 enum class FieldParts { all, contact };  // contact: the files of the contact points
 

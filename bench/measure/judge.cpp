@@ -33,7 +33,7 @@ Judge::Judge(const PosedProblem& problem, const CaseSettings& common, const Left
 void Judge::prepare(const Method& method) {
   reference(method.degree);
   if (const auto bound = bound_for(method)) discretisation(*bound, method.degree);
-  half_steps(method.degree);
+  finer_path(method.degree);
 }
 
 std::string Judge::too_large_for_reference(int degree) const {
@@ -78,7 +78,8 @@ JudgedStep Judge::judged(const std::vector<JudgedStep>& before, const ContactSys
   const int step = static_cast<int>(before.size());
   JudgedStep result = {.claimed_status = solution.status,
                        .verification = verify(system, solution, reference(system.degree, step)),
-                       .dissipation_Nmm = dissipation_Nmm(system, solution)};
+                       .dissipation_Nmm = dissipation_Nmm(system, solution),
+                       .largest_pressure_MPa = largest_pressure_MPa(system, solution)};
   const auto* const displacements = solution.as<Displacements>();
   if (displacements == nullptr) {
     double start_off_N = 0;
@@ -148,8 +149,10 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
   result.of_mesh = is_by_program ? total_error_of_program(result.steps)
                                  : discretisation_error(method, result.is_other_solution);
   result.of_mesh.total.set_method_errors(errors_of_method(result.steps));
-  const std::vector<StepResult>* const halves = half_steps(method.degree);
-  if (halves != nullptr) result.steps_in_halves = *halves;
+  const FinerPath* const finer = finer_path(method.degree);
+  const bool is_path = count_of_steps(*problem_) > 1;
+  if (finer != nullptr && is_path) result.steps_in_halves = finer->steps;
+  if (finer != nullptr && !is_path) take_eight_steps(*finer, method, result);
   if (is_ok()) {
     verdict = judge_total_error(method, std::move(verdict), result);
     result.is_right_on_the_mesh = !is_ok();
@@ -158,11 +161,21 @@ Verdict Judge::judge(const Case& asked, CaseResult& result) {
     verdict.add(
         "judged by its total error alone: its elements are not the quadratic ones of the mesh");
   if (is_ok()) verdict.add(remark_on_polygons(method, result.polygons, result.of_mesh.total));
-  if (is_ok() && halves != nullptr && !method.in_displacements())
-    for (const std::string& remark :
-         remarks_on_half_steps(step_results(result.steps), *halves, changes_of_supports(*problem_)))
+  if (is_ok() && finer != nullptr && is_path && !method.in_displacements())
+    for (const std::string& remark : remarks_on_half_steps(step_results(result.steps), finer->steps,
+                                                           changes_of_supports(*problem_)))
       verdict.add(remark);
   return verdict;
+}
+
+void Judge::take_eight_steps(const FinerPath& path, const Method& method,
+                             CaseResult& result) const {
+  if (path.steps.empty() || path.steps.back().claimed_status != Status::ok ||
+      method.in_displacements())
+    return;
+  result.in_eight_steps = path.steps;
+  result.change_in_eight_steps = stress_distance(*problem_, result.solution->stress, path.stress) /
+                                 std::sqrt(stress_norm_squared(*problem_, path.stress));
 }
 
 Verdict Judge::judge_penetration(const std::vector<JudgedStep>& steps, double allowed,

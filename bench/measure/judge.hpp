@@ -64,6 +64,7 @@ class Judge {
   std::optional<Verification> verify_as_other_solution(const ContactSystem& system,
                                                        const Solution& solution,
                                                        const Verification& v, double start_off_N);
+  void take_eight_steps(const FinerPath& path, const Method& method, CaseResult& result) const;
   // Each is asked of an answer that is ok so far.
   Verdict judge_method_error(const Case& asked, Verdict so_far, CaseResult& result);
   // Of an external program: through the wall by more than it is allowed is inaccurate.
@@ -84,8 +85,11 @@ class Judge {
   DiscretisationError discretisation_error(const Method& method, bool is_other_solution);
   // For an external program with references: its displacements, made admissible.
   DiscretisationError total_error_of_program(const std::vector<JudgedStep>& steps);
-  // A path with friction in twice as many steps; null without such a path or a reference.
-  const std::vector<StepResult>* half_steps(int degree);
+  // The steps of a path with friction, each in so many halves of halves; a load case is a path
+  // where CaseSettings::in_eight_steps asks for it, and faces slip. 0: not halved, as without a
+  // reference.
+  int halvings(int degree);
+  const FinerPath* finer_path(int degree);  // null: not halved
 
   std::shared_ptr<const Problem> problem_;                   // null: there is no body
   std::shared_ptr<const contact::Problem> contact_problem_;  // null if there is a body
@@ -95,7 +99,7 @@ class Judge {
   std::string no_references_;  // why; empty: they can be had
   std::map<int, ReferencePath> references_;
   std::map<std::pair<Bound, int>, std::optional<Discretisation>> discretisation_;
-  std::map<int, std::vector<StepResult>> steps_in_halves_;  // by degree
+  std::map<int, FinerPath> finer_paths_;  // by degree
 };
 
 }  // namespace airybench

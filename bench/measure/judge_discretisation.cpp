@@ -212,14 +212,29 @@ DiscretisationError Judge::discretisation_error(const Method& method, bool is_ot
   return result;
 }
 
-const std::vector<StepResult>* Judge::half_steps(int degree) {
-  if (!problem_ || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
-      reference(degree) == nullptr || !discretisation_left_out_.empty())
-    return nullptr;
-  const auto [found, is_new] = steps_in_halves_.try_emplace(degree);
+int Judge::halvings(int degree) {
+  constexpr int eight_steps = 3;
+  constexpr Eigen::Index max_contact_unknowns = 2000;  // eight solves of more take minutes
+  if (!problem_ || !problem_->has_friction() || reference(degree) == nullptr ||
+      !discretisation_left_out_.empty())
+    return 0;
+  if (count_of_steps(*problem_) > 1) return 1;
+  const Reference& known = *reference(degree);
+  if (!common_.in_eight_steps || known.F_C.size() > max_contact_unknowns) return 0;
+  const ContactPoints& points = known.condensed.points;
+  const std::vector<ContactState> states = contact_states(points, known.F_C);
+  for (int p = 0; p < points.count; ++p)  // where there is no friction, slip has no past
+    if (states[p] == ContactState::slip && points.friction_at(p) > 0) return eight_steps;
+  return 0;
+}
+
+const FinerPath* Judge::finer_path(int degree) {
+  const int times = halvings(degree);
+  if (times == 0) return nullptr;
+  const auto [found, is_new] = finer_paths_.try_emplace(degree);
   if (is_new) {
     const ActivityScope scope(board_, Activity::discretisation);
-    found->second = steps_in_halves(*problem_, degree);
+    found->second = path_in_parts(*problem_, degree, times);
   }
   return &found->second;
 }

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <tuple>
 
+#include "mesh/boundary_sides.hpp"
 #include "solvers/active_sets/active_set_solve.hpp"
 #include "solvers/base/dense_products.hpp"
 #include "solvers/methods.hpp"
 #include "support/seconds_since.hpp"
+#include "verify/contact_intervals.hpp"
 
 namespace airybench {
 namespace {
@@ -149,6 +151,15 @@ Solution solve_path(const Solve& solve, ContactSystem& system, const RunControl&
   return last;
 }
 
+std::optional<double> largest_pressure_MPa(const ContactSystem& system, const Solution& answer) {
+  if (system.contact.count == 0 || answer.as<Displacements>() != nullptr) return {};
+  const Problem& problem = *system.problem;
+  return largest_pressure(problem, answer.stress,
+                          std::vector<bool>(problem.mesh.boundary.size(), true),
+                          boundary_sides(problem.edges))
+      .pressure_MPa;
+}
+
 std::string step_prefix(std::int64_t step, const Problem& first) {
   const int count = count_of_steps(first);
   return count == 1 ? "" : fmt::format("load step {} of {}: ", step + 1, count);
@@ -174,6 +185,7 @@ std::vector<StepResult> step_results(const std::vector<JudgedStep>& steps) {
                     .error_stress = v.error_stress,
                     .normal_resultant_N = v.normal_resultant_N,
                     .tangential_resultant_N = v.tangential_resultant_N,
+                    .largest_pressure_MPa = step.largest_pressure_MPa,
                     .n_open = v.n_open,
                     .n_stick = v.n_stick,
                     .n_slip = v.n_slip,
@@ -195,26 +207,36 @@ int changes_of_supports(const Problem& first) {
   return changes;
 }
 
-std::vector<StepResult> steps_in_halves(const Problem& first, int degree) {
+FinerPath path_in_parts(const Problem& first, int degree, int halvings) {
+  constexpr double max_time_s = 300;
+  Problem finer = first;
+  for (int i = 0; i < halvings; ++i) finer = with_half_steps(finer);
+  const int parts = 1 << halvings;
+  FinerPath path;
   std::vector<JudgedStep> steps;
-  Status first_half = Status::ok;
-  double first_half_Nmm = 0;
+  Status status = Status::ok;
+  double work_Nmm = 0;
+  RunControl control;
+  control.deadline = Deadline::after(max_time_s);
   solve_load_steps(select_methods(hybrid_of_degree(degree)).front(),
-                   std::make_shared<const Problem>(with_half_steps(first)), {},
-                   [&](int half, const ContactSystem& posed, const Solution& answer) {
+                   std::make_shared<const Problem>(std::move(finer)), control,
+                   [&](int part, const ContactSystem& posed, const Solution& answer) {
                      if (!has_answer(answer.status)) return;
-                     const double dissipation = dissipation_Nmm(posed, answer);
-                     if (half % 2 == 0) {
-                       first_half = answer.status;
-                       first_half_Nmm = dissipation;
-                     } else {
-                       steps.push_back({first_half == Status::ok ? answer.status : first_half,
-                                        verify(posed, answer, nullptr),
-                                        {},
-                                        first_half_Nmm + dissipation});
+                     if (part % parts == 0) {
+                       status = Status::ok;
+                       work_Nmm = 0;
                      }
+                     if (status == Status::ok) status = answer.status;
+                     work_Nmm += dissipation_Nmm(posed, answer);
+                     if (part % parts != parts - 1) return;
+                     steps.push_back({.claimed_status = status,
+                                      .verification = verify(posed, answer, nullptr),
+                                      .dissipation_Nmm = work_Nmm,
+                                      .largest_pressure_MPa = largest_pressure_MPa(posed, answer)});
+                     path.stress = answer.stress;
                    });
-  return step_results(steps);
+  path.steps = step_results(steps);
+  return path;
 }
 
 }  // namespace airybench

@@ -36,8 +36,9 @@ struct JudgedStep {
   // Set if the forces meet the law but are not the reference's: against the nearest solution.
   std::optional<Verification> as_other = {};
   double dissipation_Nmm = 0;
-  DisplacementField displacement = {};  // of an external program
-  std::string fields = {};              // StepResult::fields
+  std::optional<double> largest_pressure_MPa = {};  // of equilibrium stresses, on Γ_C
+  DisplacementField displacement = {};              // of an external program
+  std::string fields = {};                          // StepResult::fields
 
   const Verification& seen() const { return as_other ? *as_other : verification; }
 };
@@ -46,6 +47,9 @@ struct JudgedStep {
 // estimate, and the worst status. watched_s: time in `visit`, which is part of no stage.
 Solution solve_path(const Solve& solve, ContactSystem& system, const RunControl& control,
                     const VisitStep& visit, double& watched_s);
+
+// On Γ_C; empty: there is none, or the stresses are those of displacements.
+std::optional<double> largest_pressure_MPa(const ContactSystem& system, const Solution& answer);
 
 void add_times(const StageTimes& more, StageTimes& sum);
 
@@ -60,7 +64,12 @@ std::vector<StepResult> step_results(const std::vector<JudgedStep>& steps);
 // How many steps support the body otherwise than the one before: these are not halved.
 int changes_of_supports(const Problem& first);
 
-// The same for HYBRID with each step in two halves, if both have an answer; dissipation adds up.
-std::vector<StepResult> steps_in_halves(const Problem& first, int degree = 1);
+// By HYBRID, each step halved so often; dissipation adds up. Without what has no answer, or none
+// within five minutes.
+struct FinerPath {
+  std::vector<StepResult> steps;
+  StressField stress;  // of the last, MPa
+};
+FinerPath path_in_parts(const Problem& first, int degree, int halvings);
 
 }  // namespace airybench

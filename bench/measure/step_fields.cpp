@@ -18,17 +18,23 @@ namespace fs = std::filesystem;
 
 constexpr auto series_ends = {".pvd", ".contact.pvd", ".steps.csv"};
 
-using LoadsOfSteps = std::array<Eigen::MatrixXd, 5>;
+constexpr std::size_t kinds_of_loads = 6;
+using LoadsOfSteps = std::array<Eigen::MatrixXd, kinds_of_loads>;
 
 // A column per step: displacements of Γ_D, of rollers their normal part, tractions of Γ_F, gaps of
-// Γ_C, at the ends of their edges, the body force, and which edges are Γ_D.
+// Γ_C, at the ends of their edges, the body force, which edges are Γ_D, and the thermal strain of
+// each body.
 LoadsOfSteps loads_of_steps(const Problem& first) {
   const Mesh& mesh = first.mesh;
   LoadsOfSteps all;
   const auto ends = 4 * static_cast<Eigen::Index>(mesh.boundary.size());
   for (Eigen::MatrixXd& kind : all) kind.setZero(ends, count_of_steps(first));
+  all[5].setZero(3 * std::ssize(first.compliance), count_of_steps(first));
   const auto take = [&](const Loads& loads, const RigidMotion& motion, int step) {
     all[3].col(step).head<2>() = loads.body_force_N_per_mm3;
+    for (Eigen::Index body = 0; body < std::ssize(loads.thermal); ++body)
+      all[5].col(step).segment<3>(3 * body) << loads.thermal[body].at_origin,
+          loads.thermal[body].slope_per_mm;
     const auto rolls = [&](int row) { return !loads.rollers.empty() && loads.rollers[row]; };
     for (Eigen::Index at = 0; at < ends; at += 2) {
       const int row = static_cast<int>(at / 4);
@@ -59,13 +65,17 @@ constexpr double rounding = 1e-9;  // of the largest of a kind of loads
 
 // Per step the first one, from 0, with its loads; roundings aside.
 std::vector<int> first_with_loads(const LoadsOfSteps& loads) {
+  std::array<double, kinds_of_loads> allowed = {};
+  for (std::size_t kind = 0; kind < kinds_of_loads; ++kind)
+    allowed[kind] = rounding * loads[kind].lpNorm<Eigen::Infinity>();
   std::vector<int> first;
   for (int step = 0; step < loads[0].cols(); ++step) {
     const auto is_like = [&](int other) {
-      return std::ranges::all_of(loads, [&](const Eigen::MatrixXd& kind) {
-        return (kind.col(step) - kind.col(other)).lpNorm<Eigen::Infinity>() <=
-               rounding * kind.lpNorm<Eigen::Infinity>();
-      });
+      for (std::size_t kind = 0; kind < kinds_of_loads; ++kind)
+        if (!((loads[kind].col(step) - loads[kind].col(other)).lpNorm<Eigen::Infinity>() <=
+              allowed[kind]))
+          return false;
+      return true;
     };
     int like = 0;
     while (like < step && !(first[like] == like && is_like(like))) ++like;
@@ -153,6 +163,11 @@ std::string or_empty(const std::optional<Value>& value) {
 bool keeps_body(int step, int count) {
   if (count <= max_step_bodies) return true;
   return (step + 1) * max_step_bodies / count != step * max_step_bodies / count;
+}
+
+void remove_fields(const fs::path& folder, const std::string& name) {
+  remove_files_of_fields(folder, name);
+  remove_step_fields(folder, name);
 }
 
 void remove_step_fields(const fs::path& folder, const std::string& name) {

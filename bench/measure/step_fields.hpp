@@ -32,6 +32,8 @@ bool keeps_body(int step, int count);
 
 // Removes what an earlier path left under this name; files of other names stay.
 void remove_step_fields(const std::filesystem::path& folder, const std::string& name);
+// And what write_fields() left.
+void remove_fields(const std::filesystem::path& folder, const std::string& name);
 
 class StepFields {
  public:

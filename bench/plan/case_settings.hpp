@@ -30,11 +30,12 @@ struct CaseSettings {
   std::optional<double> contact_tolerance;
   std::optional<int> max_contact_iterations;
   bool timed_once = false;
-  bool histories = false;  // keep iteration histories
-  bool condition = false;  // estimate the condition number of the factorised matrix
-  bool intervals = false;  // bound the contact forces (with stresses of degree > 1 always)
-  bool fields = false;     // write stresses, displacements, contact points …
-  bool picture = false;    // … and the points of a part's picture (part_picture.hpp)
+  bool histories = false;       // keep iteration histories
+  bool condition = false;       // estimate the condition number of the factorised matrix
+  bool in_eight_steps = false;  // also solve a load case in which faces slip in so many load steps
+  bool intervals = false;       // bound the contact forces (with stresses of degree > 1 always)
+  bool fields = false;          // write stresses, displacements, contact points …
+  bool picture = false;         // … and the points of a part's picture (part_picture.hpp)
   std::vector<Eigen::Vector2d> points_mm = {};  // … and stress and displacement there
   bool mean_fields = false;  // … and their mean with the stresses of displacements
   // The total error of degree 1 comes from the displacements of P2; false: from recovered ones.

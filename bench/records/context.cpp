@@ -11,9 +11,10 @@ const std::set<std::string> of_the_moment = {"date", "load_1min_at_start", "host
 
 // Options that do not change a solve.
 const std::set<std::string> of_the_run = {
-    "adapt",       "adapt_by",        "cases_planned", "interleaved",        "levels",
-    "long_case_s", "max_repetitions", "marking",       "memory_limit_bytes", "plan_sha256",
-    "precision",   "repetitions",     "retry_noisy",   "timeout_s",          "tuning_budget_s"};
+    "adapt",     "adapt_by",       "cases_planned",   "fields",      "interleaved",
+    "levels",    "long_case_s",    "max_repetitions", "marking",     "memory_limit_bytes",
+    "others_s",  "plan_sha256",    "precision",       "repetitions", "retry_noisy",
+    "timeout_s", "tuning_budget_s"};
 
 constexpr int max_named = 6;
 

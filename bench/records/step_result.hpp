@@ -21,6 +21,7 @@ struct StepResult {
   std::optional<Status> claimed_status;  // the method's
   std::optional<double> error;           // the verifier's worst measure
   std::optional<double> error_stress, normal_resultant_N, tangential_resultant_N;
+  std::optional<double> largest_pressure_MPa;  // of equilibrium stresses
   std::optional<std::int64_t> n_open, n_stick, n_slip;
   std::optional<double> strain_energy_Nmm, dissipation_Nmm;
   StepMeshError of_mesh;
@@ -36,6 +37,7 @@ void visit_values(Step& step, const Visit& visit) {
   visit("error_stress", step.error_stress);
   visit("normal_resultant_N", step.normal_resultant_N);
   visit("tangential_resultant_N", step.tangential_resultant_N);
+  visit("largest_pressure_MPa", step.largest_pressure_MPa);
   visit("n_open", step.n_open);
   visit("n_stick", step.n_stick);
   visit("n_slip", step.n_slip);

@@ -123,6 +123,32 @@ void add_contact_lines(const Record& r, PartReport& report) {
   report.emplace_back(std::move(text));
 }
 
+// Friction remembers: where a face slips, several load steps have another answer than one.
+bool depends_on_path(const Record& record, const Json& part) {
+  return record.tangential_resultant_N && record.steps.size() < 2 && !part.is_null() &&
+         std::ranges::any_of(
+             part["faces"], [](const Json& face) { return face["slipping_mm"].get<double>() > 0; });
+}
+
+constexpr double seen_of_path = 1e-3;
+
+void add_path_line(const Record& r, PartReport& report) {
+  if (!r.change_in_eight_steps) return;
+  if (*r.change_in_eight_steps <= seen_of_path) {
+    report.emplace_back(fmt::format("in eight load steps the stresses are the same to {:.1g} %",
+                                    100 * seen_of_path));
+    return;
+  }
+  const StepResult& last = r.in_eight_steps.back();
+  report.emplace_back(fmt::format(
+      "in eight load steps the stresses are {:.2g} % off in energy, Σ F_n {:.5g} N, F_t {:.5g} N, "
+      "largest pressure {}: friction depends on the path of the load",
+      100 * *r.change_in_eight_steps, *last.normal_resultant_N, *last.tangential_resultant_N,
+      r.largest_pressure_is == "unbounded"
+          ? "unbounded"
+          : fmt::format("{:.5g} MPa", *last.largest_pressure_MPa)));
+}
+
 // By what they are, the first three of each.
 void add_unbounded_line(const Json& places, PartReport& report) {
   constexpr std::size_t max_named = 3;
@@ -167,27 +193,36 @@ std::string percent(const std::optional<double>& share) {
   return share ? fmt::format("{:.2g} %", 100 * *share) : "-";
 }
 
+// Of a face that nothing touches it is rounding.
+std::string peak_of_step(const StepResult& step) {
+  return step.largest_pressure_MPa && step.normal_resultant_N != 0.
+             ? number(*step.largest_pressure_MPa)
+             : "-";
+}
+
 Rows steps_table(const Record& record) {
   if (record.steps.size() < 2) return {};
-  Rows rows = {
-      {"step", "F_n N", "F_t N", "energy N mm", "dissipation N mm", "error of the mesh", ""}};
+  Rows rows = {{"step", "F_n N", "F_t N", "peak MPa", "energy N mm", "dissipation N mm",
+                "error of the mesh", ""}};
   const auto cell = [](const std::optional<double>& value) {
     return value ? number(*value) : std::string("-");
   };
   for (std::size_t k = 0; k < record.steps.size(); ++k) {
     const StepResult& step = record.steps[k];
     rows.push_back({std::to_string(k + 1), cell(step.normal_resultant_N),
-                    cell(step.tangential_resultant_N), cell(step.strain_energy_Nmm),
-                    cell(step.dissipation_Nmm), percent(step.of_mesh.error_discretisation), ""});
+                    cell(step.tangential_resultant_N), peak_of_step(step),
+                    cell(step.strain_energy_Nmm), cell(step.dissipation_Nmm),
+                    percent(step.of_mesh.error_discretisation), ""});
   }
   return rows;
 }
 
-// Friction remembers: where a face slips, several load steps have another answer than one.
-bool depends_on_path(const Record& record, const Json& part) {
-  return record.tangential_resultant_N && record.steps.size() < 2 && !part.is_null() &&
-         std::ranges::any_of(
-             part["faces"], [](const Json& face) { return face["slipping_mm"].get<double>() > 0; });
+// What the total error does not contain.
+std::string words_of_path(const Record& r, const Json& part) {
+  if (!depends_on_path(r, part)) return "";
+  const std::optional<double>& change = r.change_in_eight_steps;
+  if (!change) return "the path of the load (faces slip; this is one step, --steps=N makes more), ";
+  return *change > seen_of_path ? "the path of the load, " : "";
 }
 
 std::string error_line(const Record& r, const Json& part) {
@@ -197,10 +232,7 @@ std::string error_line(const Record& r, const Json& part) {
   return fmt::format(
       "total error {:.2g} % in energy: mesh, curves and solver; not included: {}large strains, "
       "other laws of friction, errors of loads and supports",
-      100 * *r.error_total,
-      depends_on_path(r, part)
-          ? "the path of the load (faces slip; this is one step, --steps=N makes more), "
-          : "");
+      100 * *r.error_total, words_of_path(r, part));
 }
 
 }  // namespace
@@ -215,7 +247,10 @@ PartReport part_report(const Record& record, const Json& part) {
     add_table(faces_table(part, forces));
     add_table(supports_table(part, forces));
     add_table(bodies_table(part));
-    if (!part["faces"].empty()) add_contact_lines(record, report);
+    if (!part["faces"].empty()) {
+      add_contact_lines(record, report);
+      add_path_line(record, report);
+    }
     add_stress_lines(part, report);
   }
   add_table(steps_table(record));

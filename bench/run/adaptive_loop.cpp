@@ -70,8 +70,10 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   control.deadline = Deadline::after(settings_.timeout_s);
   control.threads = settings_.threads;
   std::optional<heap::Limit> limit;
-  if (settings_.memory_limit_bytes)
-    limit.emplace(heap::live_bytes() + *settings_.memory_limit_bytes);
+  const auto set_limit = [&, least = heap::live_bytes()] {
+    if (settings_.memory_limit_bytes) limit.emplace(least + *settings_.memory_limit_bytes);
+  };
+  set_limit();
   TotalError error;
   const auto solving = std::chrono::steady_clock::now();
   const std::vector<bool> candidates = std::exchange(closed_, {}).candidates(problem->mesh);
@@ -82,6 +84,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
                      add_times(answer.times, level.times.stages);
                      judge_step(step, *problem, posed, answer, error);
                      if (settings_.keeps_answers) level.answers.push_back({posed, answer});
+                     set_limit();
                    });
   limit.reset();
   level.times.solve_s = seconds_since(solving) - level.times.estimate_s;

@@ -12,6 +12,7 @@
 
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
+#include "bench/measure/step_fields.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
 #include "support/atomic_file.hpp"
@@ -308,6 +309,7 @@ void IsolatedScene::prepare(std::size_t k) {
 }
 
 Record IsolatedScene::examine(std::size_t k) {
+  remove_fields(out_ / "fields", cases_[k]->name().file());  // of an earlier run
   if (Record blank = blank_record(*cases_[k], limits_); blank.status == Status::skipped)
     return blank;
   prepare_all();

@@ -87,6 +87,10 @@ TEST(Command, WritesFieldsOnRequest) {
   EXPECT_EQ(std::count(stress.begin(), stress.end(), '\n'), 1 + 9 * 226);
   const std::string contact = bench.content("o/fields/Mesh0--default--3STEPD+CHOLMOD.contact.csv");
   EXPECT_EQ(std::count(contact.begin(), contact.end(), '\n'), 1 + 20);
+  // Of another run of the case they would be another answer's.
+  EXPECT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD:CHOLMOD --repetitions=1 --out=o").code, 0);
+  for (const auto& file : fs::directory_iterator(bench.path("o/fields")))
+    EXPECT_FALSE(testing::contains(file.path().string(), "CHOLMOD")) << file.path();
 }
 
 TEST(Command, TakesAUsersMeshAndScene) {

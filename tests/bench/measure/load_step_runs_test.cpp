@@ -12,6 +12,7 @@
 #include "bench/records/summary.hpp"
 #include "tests/bench/measure/examined.hpp"
 #include "tests/support/contains.hpp"
+#include "tests/support/two_blocks.hpp"
 
 namespace airybench::load_step_runs_test {
 namespace {
@@ -138,6 +139,7 @@ TEST(LoadStepRuns, APathWithFrictionIsSolvedInHalfStepsToo) {
     return examined(testing::posed(scene, testing::small_tooth(16, 12)), method);
   };
   EXPECT_TRUE(examined_in(1, 0.2).steps_in_halves.empty());
+  EXPECT_TRUE(examined_in(1, 0.2).in_eight_steps.empty());  // not asked for
   EXPECT_TRUE(examined_in(2, 0).steps_in_halves.empty());
   const Record two = examined_in(2, 0.2), four = examined_in(4, 0.2);
   ASSERT_EQ(two.steps_in_halves.size(), 2u);
@@ -200,6 +202,44 @@ TEST(LoadStepRuns, DissipationInHalvesIsRelativeToTheLargestStrainEnergy) {
     record.steps_in_halves = {made_up(10, 0, 5, 50, halved_Nmm), made_up(10, 0, 5, 0, 0)};
     EXPECT_TRUE(remarks(record).ends_with(said)) << remarks(record);
     EXPECT_EQ(remarks(record).empty(), std::string_view(said).empty()) << remarks(record);
+  }
+}
+
+TEST(LoadStepRuns, ALoadCaseIsSolvedInEightStepsTooWhereItIsAsked) {
+  Scene scene;
+  const auto examined_in = [&](int steps, double friction, const char* method) {
+    scene.equal_steps = steps;
+    scene.friction = friction;
+    Options options;
+    options.run.cases.in_eight_steps = true;
+    return examined(testing::posed(scene, testing::small_tooth(16, 12)), method, options);
+  };
+  for (const char* method : {"HYBRID", "HYBRID:k=2", "3STEPD"}) {
+    const Record once = examined_in(1, 0.2, method), path = examined_in(8, 0.2, method);
+    ASSERT_EQ(once.in_eight_steps.size(), 1u) << method;
+    const StepResult &eighth = once.in_eight_steps.back(), &last = path.steps.back();
+    for (const auto value : {&StepResult::normal_resultant_N, &StepResult::tangential_resultant_N,
+                             &StepResult::largest_pressure_MPa})
+      EXPECT_NEAR((eighth.*value).value() / (last.*value).value(), 1, 1e-6) << method;
+    EXPECT_TRUE(once.steps_in_halves.empty() && path.in_eight_steps.empty());
+  }
+  EXPECT_TRUE(examined_in(1, 0, "HYBRID").in_eight_steps.empty());    // nothing slips
+  EXPECT_TRUE(examined_in(1, 1.5, "HYBRID").in_eight_steps.empty());  // all sticks
+}
+
+// What presses in the first of two steps is rounding: nothing is relative to it.
+TEST(LoadStepRuns, AStepInWhichBodiesJustTouchIsNoMatter) {
+  Scene scene = testing::pressed(0.1, {0.0013, -0.0206});
+  scene.contacts.front().clearance_mm = 0.0103;
+  scene.equal_steps = 2;
+  const auto path = testing::posed(scene, testing::two_blocks(7, 5));
+  for (const char* method : {"HYBRID", "HYBRID:k=2", "HYBRID:PDAS", "P2", "3STEPD"}) {
+    const Record record = examined(path, method);
+    EXPECT_EQ(record.status, Status::ok) << method << ": " << record.status_reason;
+    EXPECT_LT(record.contact_iterations.value_or(0), 100) << method;
+    ASSERT_EQ(record.steps.size(), 2u);
+    EXPECT_NEAR(record.steps[0].normal_resultant_N.value(), 0, 1e-6) << method;
+    EXPECT_LT(record.steps[1].normal_resultant_N.value(), -1) << method;
   }
 }
 

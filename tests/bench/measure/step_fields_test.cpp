@@ -156,6 +156,28 @@ TEST(StepFields, AnotherPathOrASingleLoadLeavesNothingOfTheEarlierOne) {
   EXPECT_EQ(text_of(folder / "a.error.csv.txt"), "mine, too");
 }
 
+TEST(StepFields, StepsOfOtherTemperaturesHaveOtherLoads) {
+  const testing::TemporaryFolder folder;
+  Mesh mesh;
+  mesh.name = "block";
+  testing::add_block(mesh, "block", {0, 0}, {4, 2}, 4, 2,
+                     {"displacement", "force", "force", "force"});
+  validate(mesh);
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  scene.material = {1000, 0.3, 1e-5};
+  scene.displacement_mm = {0, 0};
+  scene.later_steps.resize(3);
+  for (int k = 0; k < 3; ++k)
+    scene.later_steps[k].temperature_K["block"] = {{50. * (k % 2), 50. * (k % 2)}};
+  Options options;
+  options.limits.repetitions = 1;
+  options.run.cases.fields = true;
+  testing::CaseBench(testing::posed(scene, mesh), options)
+      .examine(select_methods("HYBRID").front(), folder / "a");
+  EXPECT_EQ(column(folder / "a.steps.csv", "same_loads_as"), (std::vector<double>{1, 1, 3, 1}));
+}
+
 TEST(StepFields, OfALongPathAHundredStepsHaveTheWholeBody) {
   for (const int count : {1, 7, 100, 101, 250, 1000}) {
     int kept = 0, apart = 0, farthest = 0;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "bench/commands/commands.hpp"
 #include "bench/records/record.hpp"
 #include "bench/report/history.hpp"
 #include "tests/support/bench_command.hpp"
@@ -133,6 +134,14 @@ TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
   testing::write_text(bench_.path("h/nights/2026-11-21T030000Z.json"), "{\"format\"");
   write_run("b", 1, "2026-11-21T03:00:00Z");
   bench_.expect_refusal("track --history=h --from=b", "2026-11-21T030000Z.json: not a whole night");
+}
+
+TEST(NightlyArguments, LeaveMeshesAndMethodsToAFigureOrAProblem) {
+  for (const char* own : {"--figure=4", "--problem=a.hdf5"})
+    for (const std::string& argument : nightly_arguments({own}, "o")) {
+      EXPECT_FALSE(argument.starts_with("--mesh")) << own;
+      EXPECT_FALSE(argument.starts_with("--method")) << own;
+    }
 }
 
 TEST(History, RunsThatAreWrongAreNamedByFileKeyAndValue) {
