@@ -23,7 +23,7 @@ void pair_points(const Problem& problem, const CurvedTraces& traces,
   for (int i = 0; i < points.law.count; ++i) point_of_node[points.node[i]] = i;
   points.law.opposite.assign(static_cast<std::size_t>(points.law.count), ContactPoints::no_point);
   const std::vector<ContactOffset> own = offset;
-  std::map<int, double> least_gap_mm;  // of both, by the first: over the edges that meet there
+  std::map<int, double> min_gap_mm;  // of both, by the first: over the edges that meet there
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     const int other = problem.opposite_of(row);
     if (other == Problem::no_row) continue;
@@ -41,7 +41,7 @@ void pair_points(const Problem& problem, const CurvedTraces& traces,
         points.law.opposite[point] = two->second;
         if (points.on_roller[point] || points.on_roller[two->second]) continue;
         const double gap_mm = of_own[k].gap_mm + beyond.gap_mm;
-        const auto [least, is_new] = least_gap_mm.try_emplace(std::min(point, two->second), gap_mm);
+        const auto [least, is_new] = min_gap_mm.try_emplace(std::min(point, two->second), gap_mm);
         if (!is_new) least->second = std::min(least->second, gap_mm);
       } else if (prescribed.at[across]) {
         const Eigen::Vector2d moved = prescribed.u.col(across) + beyond.motion_mm;
@@ -51,7 +51,7 @@ void pair_points(const Problem& problem, const CurvedTraces& traces,
       }
     }
   }
-  for (const auto& [point, gap_mm] : least_gap_mm) {
+  for (const auto& [point, gap_mm] : min_gap_mm) {
     offset[point].gap_mm = gap_mm;
     offset[points.law.opposite[point]].gap_mm = 0;
   }

@@ -37,7 +37,7 @@ PROGRAM = "EXTERNAL:"
 CASES = Path(__file__).resolve().parents[1] / "validation"
 
 
-def words_of(case: str) -> dict:
+def current_words(case: str) -> dict:
     """Title and source as the case's file has them now: they were not measured."""
     path = CASES / f"{case}.json"
     if not path.exists():
@@ -57,7 +57,7 @@ def read(folder: Path) -> list[dict]:
             for answer in case["answers"]:
                 if len(answer["values"]) != len(case["quantities"]):
                     raise ValueError(f"{case['case']}: {answer['method']}: not one value per quantity")
-        return [case | words_of(case["case"]) for case in cases]
+        return [case | current_words(case["case"]) for case in cases]
     except (ValueError, KeyError, TypeError) as error:
         raise RecordsError(f"{path}: {error}; expected what bench validate writes")
 

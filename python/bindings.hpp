@@ -104,7 +104,7 @@ class Interruptible {
 };
 
 // Throws UsageError.
-int threads_of(int given);
+int checked_threads(int given);
 // Threads of a solve while it lives, those of NumPy's BLAS, too.
 class Threads {
  public:

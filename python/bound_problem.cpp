@@ -147,7 +147,7 @@ std::shared_ptr<Levels> adapted(const std::shared_ptr<BoundProblem>& problem,
   const AdaptiveSettings settings = {.goals = run.adapt.goals,
                                      .marking = marking,
                                      .timeout_s = timeout,
-                                     .threads = threads_of(threads),
+                                     .threads = checked_threads(threads),
                                      .keeps_answers = true};
   return std::make_shared<Levels>(Levels{problem, method, settings, scene.definition(),
                                          AdaptiveLoop(scene.scene, mesh, method, settings)});

@@ -191,7 +191,7 @@ CaseSettings settings_of(const py::kwargs& given) {
     else if (key == "contact_tolerance")
       settings.contact_tolerance = value.cast<double>();
     else if (key == "threads")
-      settings.threads = threads_of(value.cast<int>());
+      settings.threads = checked_threads(value.cast<int>());
     else if (key == "stop")
       settings.stop = word(value, stop_of, all_stops, "stop");
     else

@@ -53,7 +53,7 @@ void rethrow_kept() {
   if (kept_exception) std::rethrow_exception(std::exchange(kept_exception, nullptr));
 }
 
-int threads_of(int given) {
+int checked_threads(int given) {
   if (given < 1 || given > max_threads)
     throw UsageError(fmt::format("threads: {} (allowed: 1 to {})", given, max_threads));
   return given;

@@ -64,7 +64,7 @@ CtrlCInterrupts::CtrlCInterrupts() {
   if (former_.sa_handler == SIG_IGN) return;
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
-  sigaction(SIGINT, &action, &former_);
+  sigaction(SIGINT, &action, nullptr);
 }
 CtrlCInterrupts::~CtrlCInterrupts() {
   sigaction(SIGINT, &former_, nullptr);

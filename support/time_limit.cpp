@@ -20,7 +20,7 @@ void end_over_time(int) {
   _exit(wrong_usage);
 }
 
-itimerval timer_of(double seconds) {
+itimerval timer_within(double seconds) {
   constexpr double shortest_s = 1e-3, longest_s = 1e9;  // 0 would be none
   const double within_s = std::clamp(seconds, shortest_s, longest_s);
   itimerval timer = {};
@@ -39,7 +39,7 @@ TimeLimit::TimeLimit(double seconds, const std::string& complaint)
   struct sigaction action = {};
   action.sa_handler = end_over_time;
   sigaction(SIGALRM, &action, &former_action_);
-  const itimerval timer = timer_of(seconds);
+  const itimerval timer = timer_within(seconds);
   setitimer(ITIMER_REAL, &timer, &former_timer_);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "assembly/problem/face_matching.hpp"
 #include "mesh/boundary_sides.hpp"
 #include "verify/along_contact.hpp"
 #include "verify/verifier.hpp"
@@ -142,8 +143,6 @@ class Places {
   }
 
  private:
-  static constexpr double min_cosine_of_face = 0.94;  // 20°: what matching takes for a corner
-
   int body_at(int row) const {
     return problem_.mesh.triangle_body[side_[static_cast<std::size_t>(row)].triangle];
   }

@@ -30,7 +30,6 @@ struct MatchingFace {
 };
 
 MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, const Scene& scene) {
-  constexpr double min_cosine = 0.94;  // 20°
   MatchingFace face;
   std::map<int, std::vector<Point>> at;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
@@ -46,7 +45,7 @@ MatchingFace face_of(const Mesh& mesh, const std::vector<std::string>& labels, c
   }
   for (const auto& [v, normals] : at) {
     face.normal[v] = (normals.front() + normals.back()).normalized();
-    if (normals.size() < 2 || normals.front().dot(normals.back()) < min_cosine)
+    if (normals.size() < 2 || normals.front().dot(normals.back()) < min_cosine_of_face)
       face.fixed.insert(v);
   }
   return face;

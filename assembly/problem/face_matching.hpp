@@ -9,6 +9,9 @@
 
 namespace airybench {
 
+// Of the normals of two edges: where it is smaller, their face has a corner (20°).
+inline constexpr double min_cosine_of_face = 0.94;
+
 struct FaceMatching {
   std::map<int, int> twin;  // per vertex of the first face, the vertex of the second that it faces
   std::array<std::map<int, Eigen::Vector2d>, 2> normal;  // per face and vertex

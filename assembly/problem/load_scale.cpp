@@ -44,20 +44,20 @@ LoadScale load_scale(const Problem& problem) {
       for (const int v : mesh.triangles[t])
         thermal_strain =
             std::max(thermal_strain, std::abs(problem.thermal_strain(t).at(mesh.vertices[v])));
-  LoadScale scale;
+  // Σ |T|/c, Σ |T| c and the largest 1/c, c = C_11 of each triangle.
+  double stiffness = 0, compliance = 0, stiffest_MPa = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const double c = problem.compliance_of(t)(0, 0), area = problem.area_mm2(t);
+    stiffness += area / c;
+    compliance += area * c;
+    stiffest_MPa = std::max(stiffest_MPa, 1 / c);
+  }
   const auto energy_norm = [&](double strain) {
-    double energy = 0;
-    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-      const double c = problem.compliance_of(t)(0, 0);
-      energy += problem.area_mm2(t) * (strain * strain / c + c * stress * stress);
-    }
-    return std::sqrt(energy);
+    return std::sqrt(strain * strain * stiffness + stress * stress * compliance);
   };
   const double strain = std::max(displacement / diameter, thermal_strain);
-  scale.energy_norm = energy_norm(strain);
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-    scale.force_N = std::max(
-        scale.force_N, strain * diameter / problem.compliance_of(t)(0, 0) + stress * diameter);
+  LoadScale scale{.energy_norm = energy_norm(strain),
+                  .force_N = diameter * (strain * stiffest_MPa + stress)};
   if ((!problem.opposite.empty() || !loads.thermal.empty()) && scale.energy_norm > 0)
     scale.rounding =
         1e-9 * energy_norm(std::max(between / diameter, thermal_strain)) / scale.energy_norm;

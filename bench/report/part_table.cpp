@@ -123,13 +123,6 @@ void add_contact_lines(const Record& r, PartReport& report) {
   report.emplace_back(std::move(text));
 }
 
-// Friction remembers: where a face slips, several load steps have another answer than one.
-bool depends_on_path(const Record& record, const Json& part) {
-  return record.tangential_resultant_N && record.steps.size() < 2 && !part.is_null() &&
-         std::ranges::any_of(
-             part["faces"], [](const Json& face) { return face["slipping_mm"].get<double>() > 0; });
-}
-
 constexpr double seen_of_path = 1e-3;
 
 void add_path_line(const Record& r, PartReport& report) {
@@ -215,6 +208,13 @@ Rows steps_table(const Record& record) {
                     percent(step.of_mesh.error_discretisation), ""});
   }
   return rows;
+}
+
+// Friction remembers: where a face slips, several load steps have another answer than one.
+bool depends_on_path(const Record& record, const Json& part) {
+  return record.tangential_resultant_N && record.steps.size() < 2 && !part.is_null() &&
+         std::ranges::any_of(
+             part["faces"], [](const Json& face) { return face["slipping_mm"].get<double>() > 0; });
 }
 
 // What the total error does not contain.
