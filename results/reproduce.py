@@ -1,14 +1,15 @@
 """Makes what results/ holds anew, unattended, from one revision (reproduce.toml says what).
 
     reproduce.py [--only=PART,...] [--revision=REV] [--work=DIR]
-                 [--dry-run | --quick [--program=FILE] | --install | --check]
+                 [--noisy | --dry-run | --quick [--program=FILE] | --install | --check]
 
 The revision REV (default: HEAD) is cloned into DIR/source, built there and measured: changes to other
 trees meanwhile change no record. Figures are drawn by the tree that this file is in, which also lists the
 parts. A second call continues where the first one ended, with the same revision; another machine
-continues with --revision. --dry-run prints the forecast. --quick measures a thin selection with the program
-as it is and draws every figure from it. --install puts what is complete into results/ and rewrites the
-numbers that README.md and docs/ quote. --check prints which revision the records in results/ come from.
+continues with --revision. --noisy measures the cases again that were noisy. --dry-run prints the forecast.
+--quick measures a thin selection with the program as it is and draws every figure from it. --install puts
+what is complete into results/ and rewrites the numbers that README.md and docs/ quote. --check prints
+which revision the records in results/ come from.
 
 Exit status: 0 complete; 1 some part is not, or --check found several revisions; 2 wrong usage, or what is
 there cannot be continued.
@@ -56,7 +57,7 @@ def run(args: argparse.Namespace) -> int:
             commit_of(args.revision or "HEAD")
         else:
             source = pinned(work, args.revision)
-        shop = Workshop(work, source)
+        shop = Workshop(work, source, noisy_again=args.noisy)
     if args.install:
         install(shop, parts, every)
         return 0
@@ -83,6 +84,8 @@ def main() -> int:
     parser.add_argument("--program", metavar="FILE", type=lambda path: Path(path).absolute(),
                         help="with --quick: a bench that is built already")
     kind = parser.add_mutually_exclusive_group()
+    kind.add_argument("--noisy", action="store_true",
+                      help="measure noisy cases of complete runs again, and continue the others")
     kind.add_argument("--dry-run", action="store_true", help="runs and their forecast, and end")
     kind.add_argument("--quick", action="store_true",
                       help="a thin selection that draws every figure, a few minutes")

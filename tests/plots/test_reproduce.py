@@ -36,6 +36,41 @@ class QuickTest(unittest.TestCase):
             self.assertTrue(mine.exists())
 
 
+class NoisyTest(unittest.TestCase):
+    def setUp(self) -> None:
+        place = tempfile.TemporaryDirectory()
+        self.addCleanup(place.cleanup)
+        self.folder = Path(place.name)
+        self.called = self.folder / "called"
+        bench = self.folder / "bench"
+        bench.write_text(f'#!/bin/sh\necho "$@" >> {self.called}\n', encoding="utf-8")
+        bench.chmod(0o755)
+        self.part = parts.Part("first", "shows", ["--mesh=Mesh0"], [])
+        self.shop = measuring.Workshop(self.folder, self.folder, bench)
+        self.run_folder = self.shop.folder(self.part, 1)
+        self.run_folder.mkdir(parents=True)
+        (self.run_folder / "complete").touch()
+
+    def measured_again(self, *noisy: bool) -> str:
+        """Methods whose records are left for bench to continue from."""
+        (self.run_folder / "records.jsonl").write_text(
+            "".join(f"{json.dumps({'method': name, 'noisy': is_noisy})}\n" for name, is_noisy in zip("ABC", noisy)),
+            encoding="utf-8")
+        self.shop.noisy_again = True
+        with mock.patch("builtins.print"):
+            self.assertTrue(measuring.measure(self.shop, self.part, 1, self.part.runs[0]))
+        lines = (self.run_folder / "records.jsonl").read_text(encoding="utf-8").splitlines()
+        return "".join(json.loads(line)["method"] for line in lines)
+
+    def test_noisy_cases_alone_are_measured_again(self) -> None:
+        self.assertEqual("AC", self.measured_again(False, True, False))
+        self.assertIn("--mesh=Mesh0 --resume", self.called.read_text(encoding="utf-8"))
+
+    def test_a_quiet_run_is_left_as_it_is(self) -> None:
+        self.assertEqual("ABC", self.measured_again(False, False, False))
+        self.assertFalse(self.called.exists())
+
+
 class InstallTest(unittest.TestCase):
     def setUp(self) -> None:
         place = tempfile.TemporaryDirectory()
