@@ -301,6 +301,10 @@ def differing_tables(file: str, text: str, runs: Runs) -> Iterator[Difference]:
         rows = [row for mesh in match["mesh"].split("|") for method in match["method"].split("|")
                 for row in rows_of(chosen(cases, mesh=mesh, method=method, stop="target"))
                 if row.completed or keys]
+        for what in ("mesh", "method"):
+            for pattern in match[what].split("|"):
+                if chosen(cases, **{what: pattern}).empty:
+                    raise QuoteError(f"{file}: {match['head'].strip()}: no case of {pattern} in {match['folder']}")
         right = table_by_mesh(rows, keys) if keys else table(rows)
         if match["body"] != right:
             before, after = match["body"].splitlines(), right.splitlines()

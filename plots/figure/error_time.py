@@ -1,8 +1,8 @@
 """Error against time: what a method, its mesh and its parameter cost.
 
 A line is a method on one kind of meshes. Where it has many solves (a parameter takes several values), it is their
-front: no cheaper solve has a smaller error. Else its points are joined in the order of sizes, or of the values of a
-program's own parameter.
+front: no cheaper solve has a smaller error. Else its points are joined in the order of sizes or, on one mesh, of the values
+of a program's own parameter.
 """
 import re
 from collections.abc import Callable, Iterator
@@ -78,10 +78,10 @@ def with_room(rows: list[Row]) -> list[Row]:
 
 
 def panels_of(rows: list[Row], error: Of) -> dict[str, list[Row]]:
-    """Bodies for total errors, meshes for a method's own or where a program's parameter takes several values; of too
-    many meshes the largest and the smallest of each body."""
+    """Bodies for total errors, meshes for a method's own or where a program's parameter takes several values (and stresses
+    are of one degree); of too many meshes the largest and the smallest of each body."""
     swept = {(row.mesh, row.family) for own in sweeps_of(rows).values() for row in own}
-    if error is total_error and not swept:
+    if error is total_error and (not swept or len({row.degree for row in rows if not row.in_displacements}) > 1):
         return dict(list(grouped(rows, title_of).items())[:PANELS])
     meshes = by_mesh([row for row in rows if row.scene == rows[0].scene])
     if swept:
@@ -115,10 +115,11 @@ def lines_of(rows: list[Row], error: Of) -> dict[tuple[str, str, str], list[Row]
         name_of(row), kind_of(row), adapting(row) if kind_of(row) == "adapted" else ""))
     found = {}
     for key, own in lines.items():
-        if any(row.knob or given(row) for row in own):
+        is_swept = bool(sweeps_of(own))
+        if any(row.knob or given(row) for row in own) or is_swept and len({row.mesh for row in own}) > 1:
             found[key] = front(own, time_of, error)
         else:
-            found[key] = sorted(own, key=lambda row: value_of(row) or 0) if sweeps_of(own) else own
+            found[key] = sorted(own, key=lambda row: value_of(row) or 0) if is_swept else own
     return found
 
 
@@ -140,6 +141,7 @@ def draw(rows: list[Row], width: float, run: list[Row], name: str) -> Sheet:
     shown = [row for own in lines.values() for line in own.values() for row in line]
     key = list({key[0]: style_of(line[0], len(kinds)) | dict(markerfacecolor=line[0].look.colour) for own in lines.values()
                 for key, line in sorted(own.items(), key=lambda item: (item[1][0].look.rank, item[0]))}.items())
+    is_by_mesh = bool(set(panels) & {row.mesh for row in rows})
     swept = [f"{own[0].family.removeprefix('EXTERNAL:')}: {CHOSEN.match(own[0].parameters)[1]} "
              f"{', '.join(f'{value_of(row):g}' for row in sorted(own, key=value_of))}"
              for own in {own[0].family: own for own in sweeps_of(rows).values()}.values()]
@@ -148,7 +150,7 @@ def draw(rows: list[Row], width: float, run: list[Row], name: str) -> Sheet:
         ("Total error of the stresses, mesh and method together" if error is total_error else
          "Error of the contact forces against the reference, a method's own error") +
         f", over the time of one solve; {threads(rows)}. A panel is a "
-        f"{'mesh' if set(panels) & {row.mesh for row in rows} else 'body'}. A line is a method; where a parameter takes "
+        f"{'mesh' if is_by_mesh else 'body'}. A line is a method; where a parameter takes "
         "several values, the front of its solves: no cheaper one has a smaller error. The time to find parameters is "
         "not in it." + (" Stars: the paper's own stop." if any(map(is_paper_stop, rows)) else "") +
         (f" Dashed line: the target {short(target)}." if target else ""),
@@ -156,7 +158,7 @@ def draw(rows: list[Row], width: float, run: list[Row], name: str) -> Sheet:
         if len(kinds) > 1 else f"Meshes: {''.join(kinds)}.",
         "Time on an adapted mesh: the whole loop, all levels and estimates of the error; of a method that did not "
         "adapt its mesh that loop plus its own solve." if "adapted" in kinds else "",
-        f"Joined along a program's own parameter, in this order: {'; '.join(swept)}." if swept else "",
+        f"Joined along a program's own parameter, in this order: {'; '.join(swept)}." if swept and is_by_mesh else "",
         "Crossed: not ok." if any(is_crossed(row, error) for row in shown) else "",
         not_drawn(run, rows, error), left_out(run, shown, lambda row: why(row, error)),
         panels=len(panels), height=2.9, key=[(plain(words), style) for words, style in key])

@@ -91,7 +91,8 @@ def columns_of(rows: list[Row]) -> dict[str, list[str]]:
 
 
 def kappa_of(rows: list[Row]) -> float | None:
-    return max((row.condition_estimate for row in rows if row.condition_estimate), default=None)
+    """HYBRID factorises another matrix, whose κ is smaller by orders of magnitude."""
+    return max((row.condition_estimate for row in rows if row.condition_estimate and row.family != "HYBRID"), default=None)
 
 
 def cell_of(rows: list[Row], wide: bool) -> tuple[str, str, str]:
@@ -140,8 +141,8 @@ def draw(rows: list[Row], width: float) -> Sheet:
         f"{threads(rows)}. A row is an adapted mesh, a cell the time of one solve.",
         "A column with several methods: how many of them are ok, in the colour of the worst outcome; each case is in "
         "the CSV. Empty: not in the study. Last line: how many of a column's cases are ok.",
-        "κ: estimate of the 1-norm condition number of the matrix that a method factorises, the largest of those that got "
-        "so far." if with_kappa else "", height=above + ROW * (len(places) + 1) + 0.15, key=key)
+        "κ: estimate of the 1-norm condition number of the matrix that a method other than HYBRID factorises, the largest of "
+        "those that got so far." if with_kappa else "", height=above + ROW * (len(places) + 1) + 0.15, key=key)
     axes, = sheet.panels
     axes.set(xlim=(0, across), ylim=(len(places) + 1, 0))
     axes.grid(False)

@@ -63,8 +63,9 @@ def case_of(row: Row) -> Case:
 
 def cases_of(rows: list[Row]) -> Cases:
     """Takes methods in the order of their number of cases, if at least half of all cases, and FEWEST,
-    remain common to all methods taken."""
-    shown = compared([row for row in rows if not row.in_displacements], ROOM)
+    remain common to all methods taken. One that every case was skipped for is not compared."""
+    able = {row.general_name for row in rows if row.status != "skipped"}
+    shown = compared([row for row in rows if not row.in_displacements and row.general_name in able], ROOM)
     every = list(dict.fromkeys(map(case_of, shown)))
     methods = [{case_of(row): row for row in own}
                for own in grouped(shown, lambda row: row.general_name).values()]

@@ -131,6 +131,8 @@ class QuotedNumbersTest(unittest.TestCase):
             "| soft | — | *1 s, 25\u00a0%, 4 MiB, 1e-9* |\n<!-- end of table -->\nEND two\n"))
         self.readme.write_text(head.replace("error", "eror") + "<!-- end of table -->\nEND two\n", encoding="utf-8")
         self.assert_refused(self.quotes.read_text(encoding="utf-8"), "README.md: <!-- table run", "no column eror_total")
+        self.readme.write_text(head.replace("Mesh7", "Mesh8") + "<!-- end of table -->\nEND two\n", encoding="utf-8")
+        self.assert_refused(self.quotes.read_text(encoding="utf-8"), "README.md: <!-- table run", "no case of Mesh8 in run")
 
     def test_a_table_of_a_page_without_quotes_is_checked(self) -> None:
         self.assertEqual(self.check("--write")[0], 0)
