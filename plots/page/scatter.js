@@ -1,6 +1,6 @@
 // The cases of the last run, error against time, on logarithmic axes: a point each, open where it is not ok.
 
-const PLOT = {width: 760, height: 400, left: 66, right: 744, top: 14, bottom: 352};
+const PLOT = {width: 760, height: 400, left: 80, right: 728, top: 14, bottom: 352};
 const TICK_EVERY = {x: 6, y: 8};  // labels at most
 
 // A logarithmic axis of whole decades around the values: place, ticks.
