@@ -298,13 +298,12 @@ def differing_tables(file: str, text: str, runs: Runs) -> Iterator[Difference]:
         keys = match["keys"].split(",") if match["keys"] else []
         for key in filter(lambda key: key not in KEYS, keys):
             raise QuoteError(f"{file}: {match['head'].strip()}: no column {key}")
+        for key, pattern in ((key, pattern) for key in ("mesh", "method") for pattern in match[key].split("|")):
+            if chosen(cases, **{key: pattern}).empty:
+                raise QuoteError(f"{file}: {match['head'].strip()}: no case of {pattern} in {match['folder']}")
         rows = [row for mesh in match["mesh"].split("|") for method in match["method"].split("|")
                 for row in rows_of(chosen(cases, mesh=mesh, method=method, stop="target"))
                 if row.completed or keys]
-        for what in ("mesh", "method"):
-            for pattern in match[what].split("|"):
-                if chosen(cases, **{what: pattern}).empty:
-                    raise QuoteError(f"{file}: {match['head'].strip()}: no case of {pattern} in {match['folder']}")
         right = table_by_mesh(rows, keys) if keys else table(rows)
         if match["body"] != right:
             before, after = match["body"].splitlines(), right.splitlines()

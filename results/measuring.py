@@ -21,13 +21,12 @@ SECONDS = {"h": 3600, "min": 60, "s": 1, "ms": 1e-3, "µs": 1e-6}
 class Workshop:
     """Where it is measured: a source tree with its program, and a folder of runs.
 
-    A thin selection is measured in any noise, and from its beginning. Otherwise cases that were noisy
-    may be measured again, in a quieter hour.
+    A thin selection is measured in any noise, and from its beginning.
     """
 
     def __init__(self, work: Path, source: Path, program: Path | None = None,
-                 thin: bool = False, noisy_again: bool = False) -> None:
-        self.work, self.source, self.thin, self.noisy_again = work, source, thin, noisy_again
+                 thin: bool = False) -> None:
+        self.work, self.source, self.thin = work, source, thin
         self.bench = program or source / "build/release/bench/bench"
 
     def folder(self, part: Part, run: int | None = None) -> Path:
@@ -111,25 +110,27 @@ def print_forecast(shop: Workshop, parts: list[Part]) -> None:
     print(f"in all about {clock(whole)}, and what is not known")
 
 
-def forget_noisy(out: Path) -> int:
-    """Takes the noisy cases out of a run, which --resume then measures; how many there were."""
-    records = out / "records.jsonl"
-    lines = records.read_bytes().splitlines(keepends=True)
-    quiet = [line for line in lines if not json.loads(line).get("noisy")]
-    if len(quiet) < len(lines):
-        (out / "complete").unlink()
-        new = out / "records.jsonl.new"
-        new.write_bytes(b"".join(quiet))
-        os.replace(new, records)
-    return len(lines) - len(quiet)
+def forget_noisy(shop: Workshop, part: Part) -> None:
+    """Takes the noisy cases out of the part's complete runs, whose --resume then measures them."""
+    for number in range(1, len(part.runs) + 1):
+        out = shop.folder(part, number)
+        if not (out / "complete").exists():
+            continue
+        records = out / "records.jsonl"
+        lines = records.read_bytes().splitlines(keepends=True)
+        quiet = [line for line in lines if not json.loads(line).get("noisy")]
+        if len(quiet) < len(lines):
+            (out / "complete").unlink()
+            new = out / "records.jsonl.new"
+            new.write_bytes(b"".join(quiet))
+            os.replace(new, records)
+            shop.log(part=part.name, run=number, noisy=len(lines) - len(quiet))
 
 
 def measure(shop: Workshop, part: Part, number: int, options: str) -> bool:
     """Whether the run is complete: its cases may have failed, bench may not."""
     out = shop.folder(part, number)
     done = out / "complete"
-    if done.exists() and shop.noisy_again and (noisy := forget_noisy(out)):
-        shop.log(part=part.name, run=number, noisy=noisy)
     if done.exists():
         return True
     shop.log(part=part.name, run=number, begins=options)

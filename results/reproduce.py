@@ -23,7 +23,7 @@ import sys
 from pathlib import Path
 
 from installing import check, install, row_of, table
-from measuring import Workshop, build, make, pinned, print_forecast
+from measuring import Workshop, build, forget_noisy, make, pinned, print_forecast
 from messages import messages_escaped
 from parts import PROJECT, RESULTS, Refused, chosen, commit_of, parts_of
 
@@ -57,7 +57,7 @@ def run(args: argparse.Namespace) -> int:
             commit_of(args.revision or "HEAD")
         else:
             source = pinned(work, args.revision)
-        shop = Workshop(work, source, noisy_again=args.noisy)
+        shop = Workshop(work, source)
     if args.install:
         install(shop, parts, every)
         return 0
@@ -66,7 +66,12 @@ def run(args: argparse.Namespace) -> int:
     if args.dry_run:
         print_forecast(shop, parts)
         return 0
-    incomplete = [part.name for part in parts if not make(shop, part)]
+    incomplete = []
+    for part in parts:
+        if args.noisy:
+            forget_noisy(shop, part)
+        if not make(shop, part):
+            incomplete.append(part.name)
     print(*table(row_of(shop.folder(part), part) for part in parts), sep="\n")
     print(f"not complete: {', '.join(incomplete)}" if incomplete else
           f"complete, in {shop.work / 'results'}")

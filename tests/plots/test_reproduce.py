@@ -23,6 +23,13 @@ def replaced(test: unittest.TestCase, *what: object) -> None:
     test.addCleanup(patch.stop)
 
 
+def new_folder(test: unittest.TestCase) -> Path:
+    """For one test."""
+    place = tempfile.TemporaryDirectory()
+    test.addCleanup(place.cleanup)
+    return Path(place.name)
+
+
 class QuickTest(unittest.TestCase):
     def test_no_folder_of_others_is_emptied(self) -> None:
         with tempfile.TemporaryDirectory() as place:
@@ -38,9 +45,7 @@ class QuickTest(unittest.TestCase):
 
 class NoisyTest(unittest.TestCase):
     def setUp(self) -> None:
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.folder = Path(place.name)
+        self.folder = new_folder(self)
         self.called = self.folder / "called"
         bench = self.folder / "bench"
         bench.write_text(f'#!/bin/sh\necho "$@" >> {self.called}\n', encoding="utf-8")
@@ -56,8 +61,8 @@ class NoisyTest(unittest.TestCase):
         (self.run_folder / "records.jsonl").write_text(
             "".join(f"{json.dumps({'method': name, 'noisy': is_noisy})}\n" for name, is_noisy in zip("ABC", noisy)),
             encoding="utf-8")
-        self.shop.noisy_again = True
         with mock.patch("builtins.print"):
+            measuring.forget_noisy(self.shop, self.part)
             self.assertTrue(measuring.measure(self.shop, self.part, 1, self.part.runs[0]))
         lines = (self.run_folder / "records.jsonl").read_text(encoding="utf-8").splitlines()
         return "".join(json.loads(line)["method"] for line in lines)
@@ -73,9 +78,7 @@ class NoisyTest(unittest.TestCase):
 
 class InstallTest(unittest.TestCase):
     def setUp(self) -> None:
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.folder = Path(place.name)
+        self.folder = new_folder(self)
         self.results = self.folder / "results"
         self.results.mkdir()
         replaced(self, installing, "RESULTS", self.results)
@@ -212,10 +215,9 @@ class InstallTest(unittest.TestCase):
 
 class RevisionTest(unittest.TestCase):
     def setUp(self) -> None:
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.work = Path(place.name, "work")
-        self.project = Path(place.name, "project")
+        place = new_folder(self)
+        self.work = place / "work"
+        self.project = place / "project"
         self.project.mkdir()
         for module in (parts, measuring):
             replaced(self, module, "PROJECT", self.project)
